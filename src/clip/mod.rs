@@ -1,0 +1,27 @@
+//! Clipping segments: one file an algorithm, behind one trait.
+
+mod result;
+
+pub use result::{Accuracy, Arithmetic, Class, Part, PartEnd, SegmentClip, StageCounts};
+
+use crate::frustum::Frustum;
+use crate::math::{NonFinite, Real, Segment};
+
+/// An algorithm that clips segments by frusta.
+///
+/// All implementations take the same input and return the same result, so that
+/// a caller can swap them, also behind `dyn SegmentClipper<f64>`.
+pub trait SegmentClipper<T: Real> {
+    /// The algorithm's name, in lower case with hyphens.
+    fn name(&self) -> &'static str;
+
+    /// The part of a segment that is in a frustum.
+    ///
+    /// # Errors
+    /// A coordinate of the segment is infinite or NaN.
+    fn clip_segment(
+        &self,
+        frustum: &Frustum,
+        segment: &Segment<T>,
+    ) -> Result<SegmentClip<T>, NonFinite>;
+}

@@ -1,0 +1,140 @@
+//! What clipping a segment gives.
+
+use crate::frustum::FaceSet;
+use crate::math::{Real, Vec3};
+use std::fmt;
+
+/// How a closed segment S lies to a closed frustum F.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Class {
+    /// S and F have no point in common.
+    Outside,
+    /// They have one point in common, and it is on F's surface.
+    Touch,
+    /// They have a positive length in common, and the plane of at least one
+    /// face contains all of S.
+    Boundary,
+    /// F contains all of S, and S is not `Boundary`.
+    Inside,
+    /// They have a positive length in common, clipped at one end or both.
+    Cross,
+}
+
+impl Class {
+    /// All classes.
+    pub const ALL: [Class; 5] = [
+        Class::Outside,
+        Class::Touch,
+        Class::Boundary,
+        Class::Inside,
+        Class::Cross,
+    ];
+
+    /// The class's name in lower case.
+    pub const fn name(self) -> &'static str {
+        ["outside", "touch", "boundary", "inside", "cross"][self as usize]
+    }
+}
+
+impl fmt::Display for Class {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+/// One end of the part of a segment that is in a frustum.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PartEnd<T> {
+    /// The segment's parameter, `0..=1`.
+    pub t: T,
+    /// The point; an end that was not clipped is the input's point, bit for bit.
+    pub point: Vec3<T>,
+    /// Whether the segment goes on beyond this end.
+    pub clipped: bool,
+    /// The faces whose planes contain the end, if the end is on the surface.
+    pub faces: FaceSet,
+    /// With [`Accuracy::Inward`](crate::Accuracy::Inward): whether `point`
+    /// satisfies every face exactly. Always true for an end that was not
+    /// clipped; with the other accuracies, false for one that was.
+    pub inward: bool,
+}
+
+/// The part of a segment that is in a frustum.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Part<T> {
+    /// Where the segment enters; `entry.faces` is the entry set.
+    pub entry: PartEnd<T>,
+    /// Where it leaves; `exit.faces` is the exit set. `entry.t <= exit.t`.
+    pub exit: PartEnd<T>,
+    /// The faces whose planes contain the whole segment; empty for a segment
+    /// of zero length.
+    pub coplanar: FaceSet,
+}
+
+/// The result of clipping a segment by a frustum.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SegmentClip<T> {
+    /// How the segment lies to the frustum.
+    pub class: Class,
+    /// What of it is in the frustum; `None` exactly if the class is `Outside`.
+    pub part: Option<Part<T>>,
+}
+
+impl<T: Real> SegmentClip<T> {
+    /// The result for a segment with nothing in the frustum.
+    pub const OUTSIDE: Self = Self {
+        class: Class::Outside,
+        part: None,
+    };
+
+    /// Entry and exit points, if there are any.
+    pub fn points(&self) -> Option<[Vec3<T>; 2]> {
+        self.part.map(|p| [p.entry.point, p.exit.point])
+    }
+}
+
+/// How exactly the points of a clipped segment are computed. Classes and face
+/// sets are exact with each of them.
+///
+/// `u` is the unit roundoff of the segment's scalar type.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Accuracy {
+    /// Each coordinate within `8 u` times the segment's largest coordinate,
+    /// plus the smallest subnormal; each parameter within `4 u`.
+    #[default]
+    Fast,
+    /// Each coordinate and each parameter correctly rounded (to nearest, ties
+    /// to even).
+    Nearest,
+    /// A representable point within 2 ulp a coordinate of the exact one that
+    /// satisfies every face exactly; where there is none, as `Nearest`, with
+    /// [`PartEnd::inward`] false. Parameters as with `Nearest`.
+    Inward,
+}
+
+/// What a clipper computes with.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Arithmetic {
+    /// The textbook's algorithm in floating point of the segment's own type:
+    /// classes, sets and points may be wrong.
+    Plain,
+    /// Every decision is an exact sign.
+    Exact(Accuracy),
+}
+
+impl Default for Arithmetic {
+    fn default() -> Self {
+        Arithmetic::Exact(Accuracy::Fast)
+    }
+}
+
+/// How often each stage of the exact predicates was needed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct StageCounts {
+    /// Segments that the floating-point filter did not settle.
+    pub filter_failures: u64,
+    /// Signs and values taken from floating-point expansions.
+    pub expansions: u64,
+    /// Signs and values taken from big integers.
+    pub integers: u64,
+}

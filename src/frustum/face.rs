@@ -1,0 +1,141 @@
+//! The six faces and sets of them.
+
+use std::fmt;
+
+/// A face of a frustum.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[repr(u8)]
+pub enum Face {
+    /// Where depth is zero.
+    Near,
+    /// Where depth is greatest; an infinite frustum has none.
+    Far,
+    /// The side of smaller frame `x`.
+    Left,
+    /// The side of larger frame `x`.
+    Right,
+    /// The side of smaller frame `y`.
+    Bottom,
+    /// The side of larger frame `y`.
+    Top,
+}
+
+impl Face {
+    /// All six, in the order that decides ties.
+    pub const ALL: [Face; 6] = [
+        Face::Near,
+        Face::Far,
+        Face::Left,
+        Face::Right,
+        Face::Bottom,
+        Face::Top,
+    ];
+
+    /// The face's name in lower case.
+    pub const fn name(self) -> &'static str {
+        ["near", "far", "left", "right", "bottom", "top"][self as usize]
+    }
+}
+
+impl fmt::Display for Face {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+/// A set of faces.
+///
+/// Displays as names joined by `+`, in the order of [`Face::ALL`]; the empty
+/// set as nothing.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct FaceSet(u8);
+
+impl FaceSet {
+    /// No face.
+    pub const EMPTY: FaceSet = FaceSet(0);
+
+    /// From bits, bit `i` for `Face::ALL[i]`; higher bits are ignored.
+    #[inline(always)]
+    pub const fn from_bits(bits: u8) -> Self {
+        FaceSet(bits & 0x3f)
+    }
+
+    /// Bit `i` for `Face::ALL[i]`.
+    #[inline(always)]
+    pub const fn bits(self) -> u8 {
+        self.0
+    }
+
+    /// Whether the face is in the set.
+    #[inline(always)]
+    pub const fn contains(self, face: Face) -> bool {
+        self.0 & (1 << face as u8) != 0
+    }
+
+    /// Adds a face.
+    #[inline(always)]
+    pub const fn insert(&mut self, face: Face) {
+        self.0 |= 1 << face as u8;
+    }
+
+    /// The faces in either set.
+    #[inline(always)]
+    pub const fn union(self, other: Self) -> Self {
+        FaceSet(self.0 | other.0)
+    }
+
+    /// The faces in both sets.
+    #[inline(always)]
+    pub const fn intersection(self, other: Self) -> Self {
+        FaceSet(self.0 & other.0)
+    }
+
+    /// Whether there is no face in it.
+    #[inline(always)]
+    pub const fn is_empty(self) -> bool {
+        self.0 == 0
+    }
+
+    /// How many faces are in it.
+    pub const fn len(self) -> usize {
+        self.0.count_ones() as usize
+    }
+
+    /// The faces, in the order of [`Face::ALL`].
+    pub fn iter(self) -> impl Iterator<Item = Face> {
+        Face::ALL.into_iter().filter(move |&f| self.contains(f))
+    }
+
+    /// The first face in the order of [`Face::ALL`].
+    pub fn first(self) -> Option<Face> {
+        self.iter().next()
+    }
+}
+
+impl FromIterator<Face> for FaceSet {
+    fn from_iter<I: IntoIterator<Item = Face>>(faces: I) -> Self {
+        let mut set = FaceSet::EMPTY;
+        for face in faces {
+            set.insert(face);
+        }
+        set
+    }
+}
+
+impl From<Face> for FaceSet {
+    fn from(face: Face) -> Self {
+        FaceSet(1 << face as u8)
+    }
+}
+
+impl fmt::Display for FaceSet {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (i, face) in self.iter().enumerate() {
+            if i > 0 {
+                f.write_str("+")?;
+            }
+            f.write_str(face.name())?;
+        }
+        Ok(())
+    }
+}

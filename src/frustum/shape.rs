@@ -1,0 +1,167 @@
+//! A frustum in its own frame.
+
+use super::FrustumError;
+use crate::math::Rect;
+
+/// A rectangle across the frame's `z` axis: one end of a frustum.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct EndRect {
+    /// Where the end is.
+    pub z: f64,
+    /// Its bounds.
+    #[cfg_attr(feature = "serde", serde(flatten))]
+    pub rect: Rect,
+}
+
+impl EndRect {
+    /// The rectangle `left..right` by `bottom..top` at `z`.
+    pub const fn new(z: f64, left: f64, right: f64, bottom: f64, top: f64) -> Self {
+        Self {
+            z,
+            rect: Rect::new(left, right, bottom, top),
+        }
+    }
+}
+
+/// Which way an infinite frustum goes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Direction {
+    /// Towards larger `z`.
+    PlusZ,
+    /// Towards smaller `z`.
+    MinusZ,
+}
+
+impl Direction {
+    /// `1.0` or `-1.0`.
+    #[inline(always)]
+    pub const fn sign(self) -> f64 {
+        match self {
+            Direction::PlusZ => 1.0,
+            Direction::MinusZ => -1.0,
+        }
+    }
+}
+
+/// A frustum in its own frame: the closed convex hull of two rectangles, or a
+/// rectangle that grows for ever.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Shape {
+    /// Between two rectangles. `near.z != far.z`, in either order. An end may
+    /// shrink to an edge or to a point (a pyramid), not both in the same way.
+    Finite {
+        /// The end where depth is zero.
+        near: EndRect,
+        /// The other end.
+        far: EndRect,
+    },
+    /// From a rectangle to infinity; no far face.
+    Infinite {
+        /// The end where depth is zero.
+        near: EndRect,
+        /// How much each side's bound changes for each unit of depth.
+        slopes: Rect,
+        /// Which way depth grows.
+        direction: Direction,
+    },
+}
+
+impl Shape {
+    /// The near end.
+    pub const fn near(&self) -> EndRect {
+        match *self {
+            Shape::Finite { near, .. } | Shape::Infinite { near, .. } => near,
+        }
+    }
+
+    /// The far end, if there is one.
+    pub const fn far(&self) -> Option<EndRect> {
+        match *self {
+            Shape::Finite { far, .. } => Some(far),
+            Shape::Infinite { .. } => None,
+        }
+    }
+
+    /// Which way depth grows.
+    pub fn direction(&self) -> Direction {
+        match *self {
+            Shape::Finite { near, far } if far.z < near.z => Direction::MinusZ,
+            Shape::Finite { .. } => Direction::PlusZ,
+            Shape::Infinite { direction, .. } => direction,
+        }
+    }
+
+    /// Checks what [`Shape`] promises.
+    ///
+    /// # Errors
+    /// The first thing that is wrong, by name.
+    pub fn validate(&self) -> Result<(), FrustumError> {
+        let (near, far, names) = match self {
+            Shape::Finite { near, far } => (near, far.rect, FINITE_NAMES),
+            Shape::Infinite { near, slopes, .. } => (near, *slopes, INFINITE_NAMES),
+        };
+        finite(names[0], near.z)?;
+        if let Shape::Finite { far, .. } = self {
+            finite(names[1], far.z)?;
+            if near.z == far.z {
+                return Err(FrustumError::NoDepth { z: near.z });
+            }
+        }
+        let sides = near.rect.to_array().into_iter().chain(far.to_array());
+        for (name, value) in names[2..].iter().zip(sides) {
+            finite(name, value)?;
+        }
+        for (i, what) in ["left..right", "bottom..top"].into_iter().enumerate() {
+            let (n, f) = (near.rect.to_array(), far.to_array());
+            let (n, f) = ((n[2 * i], n[2 * i + 1]), (f[2 * i], f[2 * i + 1]));
+            for (end, (low, high)) in [("near", n), (names[1], f)] {
+                if low > high {
+                    return Err(FrustumError::Inverted {
+                        end,
+                        what,
+                        low,
+                        high,
+                    });
+                }
+            }
+            if n.0 == n.1 && f.0 == f.1 {
+                return Err(FrustumError::Flat { what });
+            }
+        }
+        Ok(())
+    }
+}
+
+const FINITE_NAMES: [&str; 10] = [
+    "near.z",
+    "far.z",
+    "near.left",
+    "near.right",
+    "near.bottom",
+    "near.top",
+    "far.left",
+    "far.right",
+    "far.bottom",
+    "far.top",
+];
+const INFINITE_NAMES: [&str; 10] = [
+    "near.z",
+    "slopes",
+    "near.left",
+    "near.right",
+    "near.bottom",
+    "near.top",
+    "slopes.left",
+    "slopes.right",
+    "slopes.bottom",
+    "slopes.top",
+];
+
+fn finite(what: &'static str, value: f64) -> Result<(), FrustumError> {
+    if value.is_finite() {
+        Ok(())
+    } else {
+        Err(FrustumError::NonFinite { what, value })
+    }
+}

@@ -1,0 +1,11 @@
+//! Exactly right and fast clipping and culling against view frusta.
+
+pub mod clip;
+pub mod frustum;
+pub mod math;
+
+pub use clip::{
+    Accuracy, Arithmetic, Class, Part, PartEnd, SegmentClip, SegmentClipper, StageCounts,
+};
+pub use frustum::{Direction, EndRect, Face, FaceSet, Frustum, FrustumError, Shape};
+pub use math::{Axis, End, NonFinite, Pose, Real, Rect, Segment, Vec3};

@@ -1,0 +1,16 @@
+//! Plain data: scalars, vectors, segments, rectangles and poses.
+//!
+//! Every operation has one fixed order of evaluation, so that the same input
+//! gives the same bits on every platform. Nothing here knows about frusta.
+
+mod pose;
+mod real;
+mod rect;
+mod segment;
+mod vec3;
+
+pub use pose::Pose;
+pub use real::Real;
+pub use rect::Rect;
+pub use segment::{End, NonFinite, Segment};
+pub use vec3::{Axis, Vec3};

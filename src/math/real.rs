@@ -1,0 +1,99 @@
+//! The two scalar types that points may have.
+
+use std::fmt::{Debug, Display};
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+mod sealed {
+    pub trait Sealed {}
+    impl Sealed for f32 {}
+    impl Sealed for f64 {}
+}
+
+/// A scalar of a point: `f32` or `f64`. Sealed.
+pub trait Real:
+    sealed::Sealed
+    + Copy
+    + PartialEq
+    + PartialOrd
+    + Default
+    + Debug
+    + Display
+    + Send
+    + Sync
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Neg<Output = Self>
+    + 'static
+{
+    /// Half the distance from 1 to the next larger value: the largest relative
+    /// error of one rounding (2^-24 or 2^-53).
+    const UNIT_ROUNDOFF: f64;
+    /// The smallest positive value, as `f64`.
+    const MIN_SUBNORMAL: f64;
+    /// Bits of the significand, the hidden one included (24 or 53).
+    const DIGITS: u32;
+    /// Zero.
+    const ZERO: Self;
+    /// One.
+    const ONE: Self;
+
+    /// The same value in `f64`; always exact.
+    fn to_f64(self) -> f64;
+    /// The nearest value, ties to even; infinite beyond the range.
+    fn from_f64(value: f64) -> Self;
+    /// Neither infinite nor NaN.
+    fn is_finite(self) -> bool;
+    /// The magnitude.
+    fn abs(self) -> Self;
+    /// The least value greater than this one.
+    fn next_up(self) -> Self;
+    /// The greatest value less than this one.
+    fn next_down(self) -> Self;
+}
+
+macro_rules! real {
+    ($t:ident, $u:expr, $sub:expr) => {
+        impl Real for $t {
+            const UNIT_ROUNDOFF: f64 = $u;
+            const MIN_SUBNORMAL: f64 = $sub;
+            const DIGITS: u32 = $t::MANTISSA_DIGITS;
+            const ZERO: Self = 0.0;
+            const ONE: Self = 1.0;
+
+            #[inline(always)]
+            fn to_f64(self) -> f64 {
+                f64::from(self)
+            }
+            #[inline(always)]
+            #[allow(
+                clippy::cast_possible_truncation,
+                clippy::unnecessary_cast,
+                reason = "the rounding conversion is the point"
+            )]
+            fn from_f64(value: f64) -> Self {
+                value as $t
+            }
+            #[inline(always)]
+            fn is_finite(self) -> bool {
+                self.is_finite()
+            }
+            #[inline(always)]
+            fn abs(self) -> Self {
+                self.abs()
+            }
+            #[inline]
+            fn next_up(self) -> Self {
+                self.next_up()
+            }
+            #[inline]
+            fn next_down(self) -> Self {
+                self.next_down()
+            }
+        }
+    };
+}
+
+real!(f32, 5.960464477539063e-8, 1.401298464324817e-45);
+real!(f64, 1.1102230246251565e-16, 5e-324);

@@ -1,0 +1,43 @@
+//! Axis-parallel rectangles in a frustum's frame.
+
+/// Four numbers, one for each side of a frustum: the bounds of a rectangle, or
+/// the slopes of four sides.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Rect {
+    /// The side of smaller `x`.
+    pub left: f64,
+    /// The side of larger `x`.
+    pub right: f64,
+    /// The side of smaller `y`.
+    pub bottom: f64,
+    /// The side of larger `y`.
+    pub top: f64,
+}
+
+impl Rect {
+    /// From the four sides.
+    pub const fn new(left: f64, right: f64, bottom: f64, top: f64) -> Self {
+        Self {
+            left,
+            right,
+            bottom,
+            top,
+        }
+    }
+
+    /// The rectangle centred on the origin with these half-extents.
+    pub const fn centred(half_width: f64, half_height: f64) -> Self {
+        Self::new(-half_width, half_width, -half_height, half_height)
+    }
+
+    /// The sides in the order left, right, bottom, top.
+    pub const fn to_array(self) -> [f64; 4] {
+        [self.left, self.right, self.bottom, self.top]
+    }
+
+    /// Whether `-left = right` and `-bottom = top`.
+    pub fn is_symmetric(self) -> bool {
+        -self.left == self.right && -self.bottom == self.top
+    }
+}

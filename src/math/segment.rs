@@ -1,0 +1,118 @@
+//! Closed straight segments.
+
+use super::{Axis, Real, Vec3};
+use std::fmt;
+
+/// One of a segment's two ends.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum End {
+    /// Parameter 0.
+    Start,
+    /// Parameter 1.
+    End,
+}
+
+/// The closed segment of the points `start + t (end - start)`, `0 <= t <= 1`.
+///
+/// Both ends may be the same point.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(bound(
+        serialize = "T: Real + serde::Serialize",
+        deserialize = "T: Real + serde::Deserialize<'de>"
+    ))
+)]
+pub struct Segment<T> {
+    /// The point at parameter 0.
+    pub start: Vec3<T>,
+    /// The point at parameter 1.
+    pub end: Vec3<T>,
+}
+
+/// A coordinate of a segment is infinite or not a number.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NonFinite {
+    /// Which end holds it.
+    pub end: End,
+    /// Which coordinate it is.
+    pub axis: Axis,
+    /// The value found.
+    pub value: f64,
+}
+
+impl fmt::Display for NonFinite {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let end = match self.end {
+            End::Start => "start",
+            End::End => "end",
+        };
+        write!(
+            f,
+            "the segment's {end} has {} = {}; coordinates must be finite",
+            self.axis, self.value
+        )
+    }
+}
+
+impl std::error::Error for NonFinite {}
+
+impl<T: Real> Segment<T> {
+    /// From two points.
+    #[inline(always)]
+    pub fn new(start: impl Into<Vec3<T>>, end: impl Into<Vec3<T>>) -> Self {
+        Self {
+            start: start.into(),
+            end: end.into(),
+        }
+    }
+
+    /// The same points, the other way round.
+    #[inline]
+    pub fn reversed(self) -> Self {
+        Self {
+            start: self.end,
+            end: self.start,
+        }
+    }
+
+    /// The same segment in `f64`; always exact.
+    #[inline(always)]
+    pub fn to_f64(self) -> Segment<f64> {
+        Segment {
+            start: self.start.to_f64(),
+            end: self.end.to_f64(),
+        }
+    }
+
+    /// Checks that all six coordinates are finite.
+    ///
+    /// # Errors
+    /// Names the first coordinate that is infinite or NaN.
+    pub fn check_finite(&self) -> Result<(), NonFinite> {
+        for (end, point) in [(End::Start, self.start), (End::End, self.end)] {
+            for axis in Axis::ALL {
+                let value = point[axis as usize].to_f64();
+                if !value.is_finite() {
+                    return Err(NonFinite { end, axis, value });
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+impl<T: Real, P: Into<Vec3<T>>> From<(P, P)> for Segment<T> {
+    #[inline(always)]
+    fn from((start, end): (P, P)) -> Self {
+        Self::new(start, end)
+    }
+}
+
+impl<T: Real, P: Into<Vec3<T>>> From<[P; 2]> for Segment<T> {
+    #[inline(always)]
+    fn from([start, end]: [P; 2]) -> Self {
+        Self::new(start, end)
+    }
+}
