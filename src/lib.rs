@@ -1,6 +1,7 @@
 //! Exactly right and fast clipping and culling against view frusta.
 
 pub mod clip;
+mod exact;
 pub mod frustum;
 pub mod math;
 

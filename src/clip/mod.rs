@@ -1,5 +1,7 @@
 //! Clipping segments: one file an algorithm, behind one trait.
 
+mod exact;
+mod predicates;
 mod result;
 
 pub use result::{Accuracy, Arithmetic, Class, Part, PartEnd, SegmentClip, StageCounts};

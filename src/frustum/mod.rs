@@ -1,7 +1,9 @@
 //! The frustum: its canonical form and how to make one.
 
+pub(crate) mod boundary;
 mod error;
 mod face;
+pub(crate) mod filter;
 mod shape;
 
 pub use error::FrustumError;
@@ -9,6 +11,7 @@ pub use face::{Face, FaceSet};
 pub use shape::{Direction, EndRect, Shape};
 
 use crate::math::Pose;
+use filter::Filter;
 
 /// A view frustum: the closed set of the points whose frame coordinates (see
 /// [`Pose`]) lie in a [`Shape`], under exact arithmetic on the stored doubles.
@@ -16,6 +19,7 @@ use crate::math::Pose;
 pub struct Frustum {
     pose: Pose,
     shape: Shape,
+    filter: Filter,
 }
 
 impl Frustum {
@@ -26,12 +30,27 @@ impl Frustum {
     /// axes that are exactly dependent.
     pub fn new(pose: Pose, shape: Shape) -> Result<Self, FrustumError> {
         shape.validate()?;
-        Ok(Self { pose, shape })
+        let filter = Filter::new(&pose, &shape);
+        Ok(Self {
+            pose,
+            shape,
+            filter,
+        })
     }
 
     /// The frame.
     pub fn pose(&self) -> &Pose {
         &self.pose
+    }
+
+    /// The faces there are, in the order of [`Face::ALL`]: six, or five for an
+    /// infinite frustum.
+    pub fn faces(&self) -> &'static [Face] {
+        const INFINITE: [Face; 5] = [Face::Near, Face::Left, Face::Right, Face::Bottom, Face::Top];
+        match self.shape {
+            Shape::Finite { .. } => &Face::ALL,
+            Shape::Infinite { .. } => &INFINITE,
+        }
     }
 
     /// The frustum in its frame.
