@@ -2,13 +2,16 @@
 
 mod error;
 mod face;
+mod plain;
 mod shape;
 
 pub use error::FrustumError;
 pub use face::{Face, FaceSet};
+pub(crate) use plain::{Form, PlainFrustum};
 pub use shape::{Direction, EndRect, Shape};
 
-use crate::math::Pose;
+use crate::math::{Pose, Real};
+use plain::PlainPair;
 
 /// A view frustum: the closed set of the points whose frame coordinates (see
 /// [`Pose`]) lie in a [`Shape`], under exact arithmetic on the stored doubles.
@@ -16,6 +19,7 @@ use crate::math::Pose;
 pub struct Frustum {
     pose: Pose,
     shape: Shape,
+    plain: PlainPair,
 }
 
 impl Frustum {
@@ -26,7 +30,8 @@ impl Frustum {
     /// axes that are exactly dependent.
     pub fn new(pose: Pose, shape: Shape) -> Result<Self, FrustumError> {
         shape.validate()?;
-        Ok(Self { pose, shape })
+        let plain = PlainPair::new(&pose, &shape);
+        Ok(Self { pose, shape, plain })
     }
 
     /// The frame.
@@ -37,5 +42,17 @@ impl Frustum {
     /// The frustum in its frame.
     pub fn shape(&self) -> &Shape {
         &self.shape
+    }
+
+    /// Coefficients for plain arithmetic in `T`.
+    #[inline(always)]
+    pub(crate) fn plain<T: Real>(&self) -> &PlainFrustum<T> {
+        T::pick(&self.plain)
+    }
+
+    /// The same for the frustum scaled about the world's origin.
+    pub(crate) fn plain_scaled<T: Real>(&self, scale: f64) -> PlainFrustum<T> {
+        let pose = Pose::new(self.pose.origin * scale, self.pose.axes);
+        PlainFrustum::new(&pose, &self.shape.scaled(scale))
     }
 }
