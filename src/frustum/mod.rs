@@ -4,14 +4,17 @@ pub(crate) mod boundary;
 mod error;
 mod face;
 pub(crate) mod filter;
+mod plain;
 mod shape;
 
 pub use error::FrustumError;
 pub use face::{Face, FaceSet};
+pub(crate) use plain::{Form, PlainFrustum};
 pub use shape::{Direction, EndRect, Shape};
 
-use crate::math::Pose;
+use crate::math::{Pose, Real};
 use filter::Filter;
+use plain::PlainPair;
 
 /// A view frustum: the closed set of the points whose frame coordinates (see
 /// [`Pose`]) lie in a [`Shape`], under exact arithmetic on the stored doubles.
@@ -20,6 +23,7 @@ pub struct Frustum {
     pose: Pose,
     shape: Shape,
     filter: Filter,
+    plain: PlainPair,
 }
 
 impl Frustum {
@@ -31,10 +35,12 @@ impl Frustum {
     pub fn new(pose: Pose, shape: Shape) -> Result<Self, FrustumError> {
         shape.validate()?;
         let filter = Filter::new(&pose, &shape);
+        let plain = PlainPair::new(&pose, &shape);
         Ok(Self {
             pose,
             shape,
             filter,
+            plain,
         })
     }
 
@@ -56,5 +62,17 @@ impl Frustum {
     /// The frustum in its frame.
     pub fn shape(&self) -> &Shape {
         &self.shape
+    }
+
+    /// Coefficients for plain arithmetic in `T`.
+    #[inline(always)]
+    pub(crate) fn plain<T: Real>(&self) -> &PlainFrustum<T> {
+        T::pick(&self.plain)
+    }
+
+    /// The same for the frustum scaled about the world's origin.
+    pub(crate) fn plain_scaled<T: Real>(&self, scale: f64) -> PlainFrustum<T> {
+        let pose = Pose::new(self.pose.origin * scale, self.pose.axes);
+        PlainFrustum::new(&pose, &self.shape.scaled(scale))
     }
 }
