@@ -3,6 +3,8 @@
 pub mod clip;
 pub mod frustum;
 pub mod math;
+#[cfg(feature = "oracle")]
+pub mod oracle;
 
 pub use clip::{
     Accuracy, Arithmetic, Class, Part, PartEnd, SegmentClip, SegmentClipper, StageCounts,
