@@ -7,5 +7,7 @@ pub mod math;
 pub use clip::{
     Accuracy, Arithmetic, Class, Part, PartEnd, SegmentClip, SegmentClipper, StageCounts,
 };
-pub use frustum::{Direction, EndRect, Face, FaceSet, Frustum, FrustumError, Shape};
+pub use frustum::{
+    Camera, Direction, EndRect, Face, FaceSet, Frustum, FrustumError, Projection, Shape,
+};
 pub use math::{Axis, End, NonFinite, Pose, Real, Rect, Segment, Vec3};
