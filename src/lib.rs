@@ -11,5 +11,7 @@ pub use clip::{
     Accuracy, Arithmetic, Class, Part, PartEnd, SegmentClip, SegmentClipper, StageCounts,
     VwProjection,
 };
-pub use frustum::{Direction, EndRect, Face, FaceSet, Frustum, FrustumError, Shape};
+pub use frustum::{
+    Camera, Direction, EndRect, Face, FaceSet, Frustum, FrustumError, Projection, Shape,
+};
 pub use math::{Axis, End, NonFinite, Pose, Real, Rect, Segment, Vec3};
