@@ -108,7 +108,7 @@ fn crossing<T: Real>(
         }
         Accuracy::Inward => {
             let (t, point) = nearest(staged, face);
-            let (point, inward) = inward::search(staged, face, point);
+            let (point, inward) = inward::search(staged, face, faces, point);
             (t, point, inward)
         }
     }
