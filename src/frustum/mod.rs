@@ -8,6 +8,7 @@ mod face;
 pub(crate) mod filter;
 mod independent;
 mod plain;
+mod precise;
 mod shape;
 
 pub use camera::{Camera, Projection};
