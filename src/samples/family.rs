@@ -83,6 +83,7 @@ families! {
     UlpLong "ulp-long" "Segments one ulp long in one or more coordinates.";
     Diagonals "diagonals" "Between opposite vertices, and beyond them.";
     BehindApex "behind-apex" "Passing behind the apex, where the sides' planes open again.";
+    MixedScale "mixed-scale" "Exponents from all over the range of doubles in one case.";
     Thin "thin" "Frusta so thin that few or no representable points lie in them.";
 }
 
@@ -124,6 +125,7 @@ impl Family {
                 | Self::ProductsOverflow
                 | Self::Huge
                 | Self::CrossingClose
+                | Self::MixedScale
                 | Self::FlatDepth
         )
     }

@@ -85,6 +85,7 @@ pub(crate) fn shape(family: Family, random: &mut Random) -> Shape {
                 0.5,
             ),
         },
+        Family::MixedScale => mixed_scale(random),
         Family::Thin => thin(random),
         _ => any_shape(random),
     }
@@ -283,6 +284,26 @@ fn apex_width(random: &mut Random) -> Shape {
     } else {
         finite(random.between(2.0, 30.0), base, 1.0, apex)
     }
+}
+
+/// Every number with its own exponent, from subnormal to 1e300.
+fn mixed_scale(random: &mut Random) -> Shape {
+    let mut number = || {
+        let exponent = random.integer(-1074, 996) as i32;
+        // Two steps, since the power itself may be subnormal.
+        let half = 2.0_f64.powi(exponent / 2);
+        random.between(1.0, 2.0) * random.sign() * half * 2.0_f64.powi(exponent - exponent / 2)
+    };
+    let mut pair = || {
+        let (a, b) = (number(), number());
+        (a.min(b), a.max(b))
+    };
+    let (near, far) = pair();
+    let mut rect = || {
+        let ((left, right), (bottom, top)) = (pair(), pair());
+        Rect::new(left, right, bottom, top)
+    };
+    finite(near, rect(), far, rect())
 }
 
 /// Sheets one ulp thick.
