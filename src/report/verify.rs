@@ -11,7 +11,9 @@ use crate::clip::{Accuracy, SegmentClip, StageCounts};
 use crate::frustum::Frustum;
 use crate::math::hex::Hex;
 use crate::math::{NonFinite, Real, Segment, Vec3};
-use crate::oracle::{Oracle, Violation, ViolationKind, check_idempotent, check_swapped};
+use crate::oracle::{
+    Oracle, OracleClip, Violation, ViolationKind, check_idempotent, check_swapped,
+};
 use crate::samples::{BLOCK, Family, Scene};
 use std::fmt;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -337,8 +339,12 @@ impl<'a, T: Scalar> Run<'a, T> {
 
     fn case(&mut self, segment: &Segment<T>, index: u64) {
         let mut found = Findings::new();
+        // A family's cases are finite, so there always is a truth.
+        let Ok(truth) = self.oracle.clip(segment) else {
+            return;
+        };
         for accuracy in [Accuracy::Fast, Accuracy::Nearest, Accuracy::Inward] {
-            let attempt = AssertUnwindSafe(|| self.accuracy(segment, accuracy, index));
+            let attempt = AssertUnwindSafe(|| self.accuracy(&truth, segment, accuracy, index));
             match catch_unwind(attempt) {
                 Ok(violations) => found.extend(violations.into_iter().map(|v| (accuracy, v))),
                 Err(_) => found.push((accuracy, refused("it panicked".into()))),
@@ -362,10 +368,13 @@ impl<'a, T: Scalar> Run<'a, T> {
         }
     }
 
-    fn accuracy(&mut self, segment: &Segment<T>, accuracy: Accuracy, index: u64) -> Vec<Violation> {
-        let Ok(truth) = self.oracle.clip(segment) else {
-            return Vec::new();
-        };
+    fn accuracy(
+        &mut self,
+        truth: &OracleClip,
+        segment: &Segment<T>,
+        accuracy: Accuracy,
+        index: u64,
+    ) -> Vec<Violation> {
         let mut counts = StageCounts::default();
         let answer = match self.clip(segment, accuracy, &mut counts) {
             Ok(answer) => answer,
@@ -374,7 +383,7 @@ impl<'a, T: Scalar> Run<'a, T> {
         if accuracy == Accuracy::Fast {
             self.count_stages(&counts);
         }
-        let mut found = self.oracle.check(&truth, segment, accuracy, &answer);
+        let mut found = self.oracle.check(truth, segment, accuracy, &answer);
         let mut ignored = StageCounts::default();
         match self.clip(&segment.reversed(), accuracy, &mut ignored) {
             Ok(reversed) => found.extend(check_swapped(&answer, &reversed)),

@@ -6,7 +6,7 @@ use super::random::Random;
 use super::solid::{Solid, grid_point};
 use super::stiff;
 use crate::frustum::{Direction, EndRect, Frustum, Shape};
-use crate::math::{Pose, Rect, Vec3};
+use crate::math::{Pose, Real, Rect, Vec3};
 
 /// The frustum of a block of cases, with what is needed to aim at it.
 #[derive(Clone, Debug)]
@@ -46,7 +46,11 @@ impl Scene {
             scene.solid = Some(solid);
             return Some(scene);
         }
-        let shape = stiff::shape(family, random);
+        let mut shape = stiff::shape(family, random);
+        if stiff::is_ordinary(family) && random.one_in(2) {
+            // So that points of f32 can lie exactly on its faces.
+            shape = shape_in_singles(&shape);
+        }
         match stiff::pose(family, random) {
             Some(pose) => Self::posed(shape, pose),
             None => Self::placed(shape, stiff::placement(family, random)),
@@ -117,6 +121,34 @@ fn reach(shape: &Shape) -> f64 {
     let near = shape.near().rect;
     let width = (near.right - near.left).max(near.top - near.bottom);
     if width > 0.0 { 4.0 * width } else { 4.0 }
+}
+
+/// The shape with every number rounded to `f32`.
+fn shape_in_singles(shape: &Shape) -> Shape {
+    let single = |v: f64| f64::from(f32::from_f64(v));
+    let rect = |r: Rect| {
+        let [left, right, bottom, top] = r.to_array().map(single);
+        Rect::new(left, right, bottom, top)
+    };
+    let end = |e: EndRect| EndRect {
+        z: single(e.z),
+        rect: rect(e.rect),
+    };
+    match *shape {
+        Shape::Finite { near, far } => Shape::Finite {
+            near: end(near),
+            far: end(far),
+        },
+        Shape::Infinite {
+            near,
+            slopes,
+            direction,
+        } => Shape::Infinite {
+            near: end(near),
+            slopes: rect(slopes),
+            direction,
+        },
+    }
 }
 
 /// Which solid a block of a sample-based family shows, and where.

@@ -91,6 +91,15 @@ pub(crate) fn shape(family: Family, random: &mut Random) -> Shape {
     }
 }
 
+/// Whether nothing is lost if the shape's numbers are rounded to `f32`.
+pub(crate) fn is_ordinary(family: Family) -> bool {
+    let fine = matches!(
+        family,
+        Family::ApexWidth | Family::Thin | Family::Astronomical
+    );
+    family.has_f32() && !fine
+}
+
 /// The pose of a block, if it is not an exact placement.
 pub(crate) fn pose(family: Family, random: &mut Random) -> Option<Pose> {
     match family {
