@@ -24,34 +24,11 @@ pub(crate) fn shape(family: Family, random: &mut Random) -> Shape {
         Family::Pyramid => pyramid(random),
         Family::Infinite => infinite(random),
         Family::HalfLattice => lattice(random),
-        Family::NearFarRatio => {
-            let near = random.power_of_ten(-30, -3);
-            let far = if random.one_in(2) { 1.0 } else { 1000.0 };
-            symmetric(near * far, far, random.between(0.1, 2.0), 0.5)
-        }
-        Family::FlatDepth => {
-            let near = random.between(1.0, 100.0) * random.sign();
-            let far = if random.one_in(4) {
-                near.next_down()
-            } else {
-                near.next_up()
-            };
-            finite(near, any_rect(random, 8.0), far, any_rect(random, 8.0))
-        }
-        Family::NarrowView => {
-            let w = random.pick(&NARROW);
-            symmetric(1.0, random.between(2.0, 1000.0), w, w)
-        }
-        Family::WideView => symmetric(
-            random.between(0.01, 1.0),
-            random.between(2.0, 1000.0),
-            WIDE,
-            WIDE,
-        ),
-        Family::Aspect => {
-            let (w, h) = random.pick(&[(1e6, 1.0), (1.0, 1e6), (1.0, 1e-6), (1e-6, 1.0)]);
-            symmetric(random.between(0.1, 1.0), random.between(2.0, 100.0), w, h)
-        }
+        Family::NearFarRatio
+        | Family::FlatDepth
+        | Family::NarrowView
+        | Family::WideView
+        | Family::Aspect => view(family, random),
         Family::FarFromOrigin if random.one_in(2) => few_ulps(random, 1e15),
         Family::FarFromOrigin => finite(
             -1e-3,
@@ -87,6 +64,41 @@ pub(crate) fn shape(family: Family, random: &mut Random) -> Shape {
         },
         Family::MixedScale => mixed_scale(random),
         Family::Thin => thin(random),
+        _ => any_shape(random),
+    }
+}
+
+/// Stiff proportions at ordinary sizes.
+fn view(family: Family, random: &mut Random) -> Shape {
+    match family {
+        Family::NearFarRatio => {
+            let near = random.power_of_ten(-30, -3);
+            let far = if random.one_in(2) { 1.0 } else { 1000.0 };
+            symmetric(near * far, far, random.between(0.1, 2.0), 0.5)
+        }
+        Family::FlatDepth => {
+            let near = random.between(1.0, 100.0) * random.sign();
+            let far = if random.one_in(4) {
+                near.next_down()
+            } else {
+                near.next_up()
+            };
+            finite(near, any_rect(random, 8.0), far, any_rect(random, 8.0))
+        }
+        Family::NarrowView => {
+            let w = random.pick(&NARROW);
+            symmetric(1.0, random.between(2.0, 1000.0), w, w)
+        }
+        Family::WideView => symmetric(
+            random.between(0.01, 1.0),
+            random.between(2.0, 1000.0),
+            WIDE,
+            WIDE,
+        ),
+        Family::Aspect => {
+            let (w, h) = random.pick(&[(1e6, 1.0), (1.0, 1e6), (1.0, 1e-6), (1e-6, 1.0)]);
+            symmetric(random.between(0.1, 1.0), random.between(2.0, 100.0), w, h)
+        }
         _ => any_shape(random),
     }
 }
