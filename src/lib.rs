@@ -6,6 +6,8 @@ pub mod frustum;
 pub mod math;
 #[cfg(feature = "oracle")]
 pub mod oracle;
+#[cfg(feature = "report")]
+pub mod report;
 pub mod samples;
 
 pub use clip::{
