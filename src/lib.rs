@@ -8,6 +8,7 @@ pub use clip::{
     Accuracy, Arithmetic, Class, Part, PartEnd, SegmentClip, SegmentClipper, StageCounts,
 };
 pub use frustum::{
-    Camera, Direction, EndRect, Face, FaceSet, Frustum, FrustumError, Projection, Shape,
+    Camera, Corners, Direction, EndRect, Face, FaceSet, FarCorners, Frustum, FrustumError, Plane,
+    Projection, Shape, Trapezoid, TrapezoidEnd,
 };
-pub use math::{Axis, End, NonFinite, Pose, Real, Rect, Segment, Vec3};
+pub use math::{Axis, End, Interval, NonFinite, Pose, Real, Rect, Segment, Vec3};

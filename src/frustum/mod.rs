@@ -1,16 +1,20 @@
 //! The frustum: its canonical form and how to make one.
 
 mod camera;
+mod corners;
 mod dyadic;
 mod error;
 mod face;
 mod independent;
 mod shape;
+mod trapezoid;
 
 pub use camera::{Camera, Projection};
+pub use corners::{Corners, FarCorners, Plane};
 pub use error::FrustumError;
 pub use face::{Face, FaceSet};
 pub use shape::{Direction, EndRect, Shape};
+pub use trapezoid::{Trapezoid, TrapezoidEnd};
 
 use crate::math::{Pose, Vec3};
 use independent::independent;

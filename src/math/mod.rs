@@ -3,12 +3,14 @@
 //! Every operation has one fixed order of evaluation, so that the same input
 //! gives the same bits on every platform. Nothing here knows about frusta.
 
+mod interval;
 mod pose;
 mod real;
 mod rect;
 mod segment;
 mod vec3;
 
+pub use interval::Interval;
 pub use pose::Pose;
 pub use real::Real;
 pub use rect::Rect;
