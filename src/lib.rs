@@ -9,6 +9,6 @@ pub use clip::{
 };
 pub use frustum::{
     Camera, Corners, Direction, EndRect, Face, FaceSet, FarCorners, Frustum, FrustumError, Plane,
-    Projection, Shape, Trapezoid, TrapezoidEnd,
+    Projection, Shape, SixPoints, Trapezoid, TrapezoidEnd,
 };
 pub use math::{Axis, End, Interval, NonFinite, Pose, Real, Rect, Segment, Vec3};

@@ -86,6 +86,41 @@ pub enum FrustumError {
         /// What was computed.
         what: &'static str,
     },
+    /// Two points that must differ do not.
+    SamePoint {
+        /// Their names.
+        what: [&'static str; 2],
+        /// Where they are.
+        at: Vec3<f64>,
+    },
+    /// Two edges that must be at a right angle are not.
+    Skew {
+        /// The points the edges lead to from their centres.
+        what: [&'static str; 2],
+        /// The cosine of their angle.
+        cosine: f64,
+    },
+    /// A point of the top lies opposite its counterpart on the base.
+    WrongSide {
+        /// The point's name.
+        what: &'static str,
+    },
+    /// The picture has no such tile.
+    NoSuchTile {
+        /// The column asked for.
+        column: u32,
+        /// The row asked for.
+        row: u32,
+        /// How many columns there are.
+        columns: u32,
+        /// How many rows there are.
+        rows: u32,
+    },
+    /// Two eyes cannot converge at their own distance.
+    Convergence {
+        /// The distance asked for.
+        convergence: f64,
+    },
 }
 
 impl FrustumError {
@@ -150,6 +185,32 @@ impl fmt::Display for FrustumError {
             Self::Underflow { what } => {
                 write!(f, "{what} is too close to zero for a double")
             }
+            Self::SamePoint { what: [a, b], at } => {
+                write!(f, "{a} and {b} are both {at}; they must differ")
+            }
+            Self::Skew {
+                what: [a, b],
+                cosine,
+            } => write!(
+                f,
+                "the edges to {a} and {b} meet at cosine {cosine}; they must be at a right angle"
+            ),
+            Self::WrongSide { what } => {
+                write!(f, "{what} lies opposite its counterpart on the base")
+            }
+            Self::NoSuchTile {
+                column,
+                row,
+                columns,
+                rows,
+            } => write!(
+                f,
+                "tile {column}, {row} is not among {columns} by {rows}, counted from 0"
+            ),
+            Self::Convergence { convergence } => write!(
+                f,
+                "the convergence is at {convergence}; it must be a number other than 0"
+            ),
         }
     }
 }

@@ -7,13 +7,16 @@ mod error;
 mod face;
 mod independent;
 mod shape;
+mod six_points;
 mod trapezoid;
+mod window;
 
 pub use camera::{Camera, Projection};
 pub use corners::{Corners, FarCorners, Plane};
 pub use error::FrustumError;
 pub use face::{Face, FaceSet};
 pub use shape::{Direction, EndRect, Shape};
+pub use six_points::SixPoints;
 pub use trapezoid::{Trapezoid, TrapezoidEnd};
 
 use crate::math::{Pose, Vec3};
