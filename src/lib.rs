@@ -2,13 +2,15 @@
 
 pub mod clip;
 pub mod frustum;
+mod interop;
 pub mod math;
 
 pub use clip::{
     Accuracy, Arithmetic, Class, Part, PartEnd, SegmentClip, SegmentClipper, StageCounts,
 };
 pub use frustum::{
-    Camera, Corners, Direction, EndRect, Face, FaceSet, FarCorners, Frustum, FrustumError, Plane,
-    Projection, Shape, SixPoints, Trapezoid, TrapezoidEnd,
+    Camera, ClipSpace, ClipY, Corners, DepthRange, Deviation, Direction, EndRect, Face, FaceSet,
+    FarCorners, Frustum, FrustumError, MatrixFrustum, MatrixLayout, Plane, Projection, Shape,
+    SixPoints, Trapezoid, TrapezoidEnd, ViewProjection,
 };
 pub use math::{Axis, End, Interval, NonFinite, Pose, Real, Rect, Segment, Vec3};

@@ -121,6 +121,31 @@ pub enum FrustumError {
         /// The distance asked for.
         convergence: f64,
     },
+    /// Not an invertible view-projection matrix: clip coordinates do not
+    /// determine the point (exactly).
+    SingularMatrix,
+    /// An orthographic matrix whose `W` is not positive, so that nothing is in
+    /// view.
+    NegativeW {
+        /// The constant `W`.
+        w: f64,
+    },
+    /// A matrix whose near and far planes are not parallel to its picture.
+    TiltedDepth {
+        /// The sine of the angle between the `Z` and the `W` row.
+        sine: f64,
+    },
+    /// A matrix whose near plane is not in front of the eye: a wrong depth
+    /// range or reversal, or a negated matrix.
+    NoNearPlane {
+        /// Where the bound for the near plane is met, as clip `W`.
+        w: f64,
+    },
+    /// A matrix whose far plane is behind the eye by more than rounding can do.
+    FarBehindEye {
+        /// Where the bound for the far plane is met, as clip `W`.
+        w: f64,
+    },
 }
 
 impl FrustumError {
@@ -210,6 +235,23 @@ impl fmt::Display for FrustumError {
             Self::Convergence { convergence } => write!(
                 f,
                 "the convergence is at {convergence}; it must be a number other than 0"
+            ),
+            Self::SingularMatrix => f.write_str("the matrix is singular"),
+            Self::NegativeW { w } => {
+                write!(f, "the matrix gives W = {w} everywhere; W must be positive")
+            }
+            Self::TiltedDepth { sine } => write!(
+                f,
+                "the matrix's near and far planes are not parallel to its picture (sine {sine})"
+            ),
+            Self::NoNearPlane { w } => write!(
+                f,
+                "the matrix's near plane is not in front of the eye (W = {w}): wrong depth range, \
+                 reversal or sign?"
+            ),
+            Self::FarBehindEye { w } => write!(
+                f,
+                "the matrix's far plane is behind the eye (W = {w}): wrong depth range or reversal?"
             ),
         }
     }

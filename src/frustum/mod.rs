@@ -6,6 +6,7 @@ mod dyadic;
 mod error;
 mod face;
 mod independent;
+mod matrix;
 mod shape;
 mod six_points;
 mod trapezoid;
@@ -15,6 +16,9 @@ pub use camera::{Camera, Projection};
 pub use corners::{Corners, FarCorners, Plane};
 pub use error::FrustumError;
 pub use face::{Face, FaceSet};
+pub use matrix::{
+    ClipSpace, ClipY, DepthRange, Deviation, MatrixFrustum, MatrixLayout, ViewProjection,
+};
 pub use shape::{Direction, EndRect, Shape};
 pub use six_points::SixPoints;
 pub use trapezoid::{Trapezoid, TrapezoidEnd};

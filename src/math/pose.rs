@@ -123,10 +123,11 @@ fn solve(mut a: [[f64; 3]; 3], mut b: [f64; 3]) -> [f64; 3] {
         if a[k][k].abs() < 1e-200 {
             a[k][k] = 1e-200_f64.copysign(a[k][k]);
         }
+        let pivot = a[k];
         for i in k + 1..3 {
-            let factor = a[i][k] / a[k][k];
-            for j in k + 1..3 {
-                a[i][j] -= factor * a[k][j];
+            let factor = a[i][k] / pivot[k];
+            for (entry, p) in a[i].iter_mut().zip(pivot).skip(k + 1) {
+                *entry -= factor * p;
             }
             b[i] -= factor * b[k];
         }
