@@ -78,7 +78,7 @@ struct Edge {
 
 impl SixPoints {
     /// Cosine up to which an angle counts as right, besides what rounding of
-    /// the points explains: `2^-20`, a fifth of a second of arc times one.
+    /// the points explains: `2^-20`, about a fifth of a second of arc.
     pub const SKEW: f64 = 1.0 / 1_048_576.0;
 
     /// The frustum of the six points. Frame: origin `Pb`, `x` along `Pb -> A1`,
