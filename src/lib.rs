@@ -1,12 +1,17 @@
 //! Exactly right and fast clipping and culling against view frusta.
 
 pub mod clip;
+mod exact;
 pub mod frustum;
 mod interop;
 pub mod math;
+#[cfg(feature = "oracle")]
+pub mod oracle;
+pub mod samples;
 
 pub use clip::{
     Accuracy, Arithmetic, Class, Part, PartEnd, SegmentClip, SegmentClipper, StageCounts,
+    VwProjection,
 };
 pub use frustum::{
     Camera, ClipSpace, ClipY, Corners, DepthRange, Deviation, Direction, EndRect, Face, FaceSet,

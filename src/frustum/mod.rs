@@ -1,12 +1,15 @@
 //! The frustum: its canonical form and how to make one.
 
+pub(crate) mod boundary;
 mod camera;
 mod corners;
-mod dyadic;
 mod error;
+mod exact_vec;
 mod face;
+pub(crate) mod filter;
 mod independent;
 mod matrix;
+mod plain;
 mod shape;
 mod six_points;
 mod trapezoid;
@@ -19,12 +22,15 @@ pub use face::{Face, FaceSet};
 pub use matrix::{
     ClipSpace, ClipY, DepthRange, Deviation, MatrixFrustum, MatrixLayout, ViewProjection,
 };
+pub(crate) use plain::{Form, General, Layout, Orthographic, PlainFrustum, Symmetric};
 pub use shape::{Direction, EndRect, Shape};
 pub use six_points::SixPoints;
 pub use trapezoid::{Trapezoid, TrapezoidEnd};
 
-use crate::math::{Pose, Vec3};
+use crate::math::{Pose, Real, Vec3};
+use filter::Filter;
 use independent::independent;
+use plain::PlainPair;
 
 /// A view frustum: the closed set of the points whose frame coordinates (see
 /// [`Pose`]) lie in a [`Shape`], under exact arithmetic on the stored doubles.
@@ -32,6 +38,8 @@ use independent::independent;
 pub struct Frustum {
     pose: Pose,
     shape: Shape,
+    filter: Filter,
+    plain: PlainPair,
 }
 
 impl Frustum {
@@ -43,7 +51,14 @@ impl Frustum {
     pub fn new(pose: Pose, shape: Shape) -> Result<Self, FrustumError> {
         shape.validate()?;
         check_pose(&pose)?;
-        Ok(Self { pose, shape })
+        let filter = Filter::new(&pose, &shape);
+        let plain = PlainPair::new(&pose, &shape);
+        Ok(Self {
+            pose,
+            shape,
+            filter,
+            plain,
+        })
     }
 
     /// The frame.
@@ -51,9 +66,31 @@ impl Frustum {
         &self.pose
     }
 
+    /// The faces there are, in the order of [`Face::ALL`]: six, or five for an
+    /// infinite frustum.
+    pub fn faces(&self) -> &'static [Face] {
+        const INFINITE: [Face; 5] = [Face::Near, Face::Left, Face::Right, Face::Bottom, Face::Top];
+        match self.shape {
+            Shape::Finite { .. } => &Face::ALL,
+            Shape::Infinite { .. } => &INFINITE,
+        }
+    }
+
     /// The frustum in its frame.
     pub fn shape(&self) -> &Shape {
         &self.shape
+    }
+
+    /// Coefficients for plain arithmetic in `T`.
+    #[inline(always)]
+    pub(crate) fn plain<T: Real>(&self) -> &PlainFrustum<T> {
+        T::pick(&self.plain)
+    }
+
+    /// The same for the frustum scaled about the world's origin.
+    pub(crate) fn plain_scaled<T: Real>(&self, scale: f64) -> PlainFrustum<T> {
+        let pose = Pose::new(self.pose.origin * scale, self.pose.axes);
+        PlainFrustum::new(&pose, &self.shape.scaled(scale))
     }
 }
 

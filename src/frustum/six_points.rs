@@ -21,7 +21,9 @@
 //! Six points overdetermine a frustum: angles that should be right are checked,
 //! up to what rounding of the points explains and [`SixPoints::SKEW`].
 
-use super::dyadic::{Dyadic, Dyadic3, difference, dot, exact, normalised_by_power, unit};
+use super::exact_vec::{
+    Dyadic, Dyadic3, Rounded, difference, dot, exact, normalised_by_power, unit,
+};
 use super::{EndRect, Frustum, FrustumError, Shape};
 use crate::math::{Pose, Rect, Vec3};
 

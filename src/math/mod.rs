@@ -3,6 +3,7 @@
 //! Every operation has one fixed order of evaluation, so that the same input
 //! gives the same bits on every platform. Nothing here knows about frusta.
 
+pub mod hex;
 mod interval;
 mod pose;
 mod real;
@@ -12,6 +13,7 @@ mod vec3;
 
 pub use interval::Interval;
 pub use pose::Pose;
+pub(crate) use real::PerReal;
 pub use real::Real;
 pub use rect::Rect;
 pub use segment::{End, NonFinite, Segment};

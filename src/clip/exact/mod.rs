@@ -1,0 +1,60 @@
+//! The exact tier: classes and sets by exact signs, points by construction.
+//!
+//! ```text
+//! staged    the predicates, in stages: filter, lattice, expansions, integers
+//! decide    a span and the predicates give class, sets and where the ends are
+//! points    the ends' parameters and coordinates, to the accuracy asked for
+//! vw        V/W with certificates instead, where rounded values prove enough
+//! inward    the representable point next to an end that is in the frustum
+//! ```
+
+mod decide;
+mod inward;
+mod points;
+mod staged;
+pub(crate) mod vw;
+
+pub(crate) use staged::Staged;
+
+use decide::Decision;
+use points::build;
+
+use super::predicates::{Predicates, Span};
+use super::{Accuracy, SegmentClip, StageCounts};
+use crate::frustum::Frustum;
+use crate::math::{End, NonFinite, Real, Segment};
+use std::cmp::Ordering;
+
+/// Clips with an algorithm's control flow and exact predicates.
+pub(crate) fn clip<T: Real>(
+    frustum: &Frustum,
+    segment: &Segment<T>,
+    accuracy: Accuracy,
+    counts: &mut StageCounts,
+    span: impl FnOnce(&mut Staged<'_>) -> Option<Span>,
+) -> Result<SegmentClip<T>, NonFinite> {
+    segment.check_finite()?;
+    let mut staged = Staged::new(frustum, segment.to_f64());
+    let decision = if segment.start == segment.end {
+        point(&mut staged)
+    } else {
+        span(&mut staged).map(|span| Decision::new(&mut staged, span))
+    };
+    let result = match decision {
+        None => SegmentClip::OUTSIDE,
+        Some(decision) => build(&mut staged, segment, &decision, accuracy),
+    };
+    staged.add_to(counts);
+    Ok(result)
+}
+
+/// A segment of zero length is its point: every algorithm's control flow
+/// assumes that a line is crossed at most once.
+fn point(staged: &mut Staged<'_>) -> Option<Decision> {
+    let outside = |staged: &mut Staged<'_>, face| staged.side(face, End::Start) == Ordering::Less;
+    let faces = staged.faces();
+    if faces.iter().any(|&face| outside(staged, face)) {
+        return None;
+    }
+    Some(Decision::point(staged))
+}
