@@ -8,8 +8,8 @@ pub mod math;
 pub mod oracle;
 
 pub use clip::{
-    Accuracy, Arithmetic, Class, Part, PartEnd, SegmentClip, SegmentClipper, StageCounts,
-    VwProjection,
+    Accuracy, Arithmetic, Class, CohenSutherland, CyrusBeck, LiangBarsky, LiangBarskyVariant, Part,
+    PartEnd, SegmentClip, SegmentClipper, SixPlanes, StageCounts, VwProjection,
 };
 pub use frustum::{Direction, EndRect, Face, FaceSet, Frustum, FrustumError, Shape};
 pub use math::{Axis, End, NonFinite, Pose, Real, Rect, Segment, Vec3};
