@@ -3,6 +3,7 @@
 //! Every operation has one fixed order of evaluation, so that the same input
 //! gives the same bits on every platform. Nothing here knows about frusta.
 
+pub mod hex;
 mod pose;
 mod real;
 mod rect;
