@@ -1,11 +1,13 @@
 //! Exactly right and fast clipping and culling against view frusta.
 
 pub mod clip;
+mod exact;
 pub mod frustum;
 pub mod math;
 
 pub use clip::{
     Accuracy, Arithmetic, Class, Part, PartEnd, SegmentClip, SegmentClipper, StageCounts,
+    VwProjection,
 };
 pub use frustum::{
     Camera, Direction, EndRect, Face, FaceSet, Frustum, FrustumError, Projection, Shape,

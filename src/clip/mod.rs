@@ -1,8 +1,13 @@
 //! Clipping segments: one file an algorithm, behind one trait.
 
+mod exact;
+mod plain;
+mod predicates;
 mod result;
+mod vw;
 
 pub use result::{Accuracy, Arithmetic, Class, Part, PartEnd, SegmentClip, StageCounts};
+pub use vw::VwProjection;
 
 use crate::frustum::Frustum;
 use crate::math::{NonFinite, Real, Segment};

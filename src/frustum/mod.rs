@@ -1,19 +1,25 @@
 //! The frustum: its canonical form and how to make one.
 
+pub(crate) mod boundary;
 mod camera;
 mod dyadic;
 mod error;
 mod face;
+pub(crate) mod filter;
 mod independent;
+mod plain;
 mod shape;
 
 pub use camera::{Camera, Projection};
 pub use error::FrustumError;
 pub use face::{Face, FaceSet};
+pub(crate) use plain::{Form, PlainFrustum};
 pub use shape::{Direction, EndRect, Shape};
 
-use crate::math::{Pose, Vec3};
+use crate::math::{Pose, Real, Vec3};
+use filter::Filter;
 use independent::independent;
+use plain::PlainPair;
 
 /// A view frustum: the closed set of the points whose frame coordinates (see
 /// [`Pose`]) lie in a [`Shape`], under exact arithmetic on the stored doubles.
@@ -21,6 +27,8 @@ use independent::independent;
 pub struct Frustum {
     pose: Pose,
     shape: Shape,
+    filter: Filter,
+    plain: PlainPair,
 }
 
 impl Frustum {
@@ -32,7 +40,14 @@ impl Frustum {
     pub fn new(pose: Pose, shape: Shape) -> Result<Self, FrustumError> {
         shape.validate()?;
         check_pose(&pose)?;
-        Ok(Self { pose, shape })
+        let filter = Filter::new(&pose, &shape);
+        let plain = PlainPair::new(&pose, &shape);
+        Ok(Self {
+            pose,
+            shape,
+            filter,
+            plain,
+        })
     }
 
     /// The frame.
@@ -40,9 +55,31 @@ impl Frustum {
         &self.pose
     }
 
+    /// The faces there are, in the order of [`Face::ALL`]: six, or five for an
+    /// infinite frustum.
+    pub fn faces(&self) -> &'static [Face] {
+        const INFINITE: [Face; 5] = [Face::Near, Face::Left, Face::Right, Face::Bottom, Face::Top];
+        match self.shape {
+            Shape::Finite { .. } => &Face::ALL,
+            Shape::Infinite { .. } => &INFINITE,
+        }
+    }
+
     /// The frustum in its frame.
     pub fn shape(&self) -> &Shape {
         &self.shape
+    }
+
+    /// Coefficients for plain arithmetic in `T`.
+    #[inline(always)]
+    pub(crate) fn plain<T: Real>(&self) -> &PlainFrustum<T> {
+        T::pick(&self.plain)
+    }
+
+    /// The same for the frustum scaled about the world's origin.
+    pub(crate) fn plain_scaled<T: Real>(&self, scale: f64) -> PlainFrustum<T> {
+        let pose = Pose::new(self.pose.origin * scale, self.pose.axes);
+        PlainFrustum::new(&pose, &self.shape.scaled(scale))
     }
 }
 

@@ -92,6 +92,29 @@ impl Shape {
         }
     }
 
+    /// The shape scaled about its frame's origin; slopes stay.
+    pub(super) fn scaled(&self, scale: f64) -> Shape {
+        let end = |e: EndRect| {
+            let [left, right, bottom, top] = e.rect.to_array().map(|side| side * scale);
+            EndRect::new(e.z * scale, left, right, bottom, top)
+        };
+        match *self {
+            Shape::Finite { near, far } => Shape::Finite {
+                near: end(near),
+                far: end(far),
+            },
+            Shape::Infinite {
+                near,
+                slopes,
+                direction,
+            } => Shape::Infinite {
+                near: end(near),
+                slopes,
+                direction,
+            },
+        }
+    }
+
     /// Checks what [`Shape`] promises.
     ///
     /// # Errors

@@ -11,6 +11,7 @@ mod segment;
 mod vec3;
 
 pub use pose::Pose;
+pub(crate) use real::PerReal;
 pub use real::Real;
 pub use rect::Rect;
 pub use segment::{End, NonFinite, Segment};

@@ -4,10 +4,40 @@ use std::fmt::{Debug, Display};
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 mod sealed {
-    pub trait Sealed {}
-    impl Sealed for f32 {}
-    impl Sealed for f64 {}
+    use super::Real;
+
+    /// Something that is kept once for each scalar type; generic code takes its
+    /// own with `T::pick`.
+    pub trait PerReal {
+        /// What is kept.
+        type Of<T: Real>;
+        /// That for `f32`.
+        fn single(&self) -> &Self::Of<f32>;
+        /// That for `f64`.
+        fn double(&self) -> &Self::Of<f64>;
+    }
+
+    pub trait Sealed: Sized {
+        /// The one of the two that is made for this type.
+        fn pick<P: PerReal>(both: &P) -> &P::Of<Self>
+        where
+            Self: Real;
+    }
+    impl Sealed for f32 {
+        #[inline(always)]
+        fn pick<P: PerReal>(both: &P) -> &P::Of<f32> {
+            both.single()
+        }
+    }
+    impl Sealed for f64 {
+        #[inline(always)]
+        fn pick<P: PerReal>(both: &P) -> &P::Of<f64> {
+            both.double()
+        }
+    }
 }
+
+pub(crate) use sealed::PerReal;
 
 /// A scalar of a point: `f32` or `f64`. Sealed.
 pub trait Real:

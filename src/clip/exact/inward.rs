@@ -1,0 +1,133 @@
+//! The representable point next to an exact crossing that is in the frustum.
+//!
+//! Candidates are taken in the order of their distance from the correctly
+//! rounded point, in representable steps summed over the coordinates, then by
+//! coordinates: a function of the exact point and the frustum alone. All have
+//! every coordinate within 2 ulp of the exact one. One step from the rounded
+//! value always is, where the spacing does not change; for the rest, and for
+//! two and more steps, the distance is compared exactly.
+
+use super::points::ExactPoint;
+use super::staged::Staged;
+use crate::frustum::Face;
+use crate::math::{Real, Vec3};
+use std::cmp::Ordering;
+
+/// Steps that can be within 2 ulp: next to a power of two the spacing below is
+/// half the spacing above.
+const REACH: i32 = 5;
+
+/// The first candidate in the frustum and true, or the rounded point and false.
+pub(super) fn search<T: Real>(
+    staged: &mut Staged<'_>,
+    face: Face,
+    rounded: Vec3<T>,
+) -> (Vec3<T>, bool) {
+    if contains(staged, rounded) {
+        return (rounded, true);
+    }
+    let axes = [rounded.x, rounded.y, rounded.z];
+    let even = axes.iter().all(|&c| evenly_spaced(c));
+    if even && let Some(point) = nearest_inside(staged, rounded, 1, |_, _| true) {
+        return (point, true);
+    }
+    let exact = ExactPoint::new(staged, face);
+    let mut allowed = [[None; 2 * REACH as usize + 1]; 3];
+    let found = nearest_inside(staged, rounded, REACH, |k, steps| {
+        let slot = &mut allowed[k][(steps + REACH).unsigned_abs() as usize];
+        *slot.get_or_insert_with(|| within_two_ulp(&exact, k, walk(axes[k], steps)))
+    });
+    match found {
+        Some(point) => (point, true),
+        None => (rounded, false),
+    }
+}
+
+/// The first candidate within `reach` steps a coordinate that is in the
+/// frustum.
+fn nearest_inside<T: Real>(
+    staged: &mut Staged<'_>,
+    rounded: Vec3<T>,
+    reach: i32,
+    mut allowed: impl FnMut(usize, i32) -> bool,
+) -> Option<Vec3<T>> {
+    for distance in 1..=3 * reach {
+        for x in -reach..=reach {
+            for y in -reach..=reach {
+                let rest = distance - x.abs() - y.abs();
+                if !(0..=reach).contains(&rest) {
+                    continue;
+                }
+                for z in [-rest, rest] {
+                    if !(allowed(0, x) && allowed(1, y) && allowed(2, z)) {
+                        continue;
+                    }
+                    let point =
+                        Vec3::new(walk(rounded.x, x), walk(rounded.y, y), walk(rounded.z, z));
+                    if point.is_finite() && contains(staged, point) {
+                        return Some(point);
+                    }
+                    if rest == 0 {
+                        break;
+                    }
+                }
+            }
+        }
+    }
+    None
+}
+
+/// Whether a point is in the frustum, exactly.
+fn contains<T: Real>(staged: &mut Staged<'_>, point: Vec3<T>) -> bool {
+    let point = point.to_f64();
+    let values = staged.filter().values(point);
+    let faces = staged.frustum.faces();
+    faces
+        .iter()
+        .all(|&face| staged.sign_at(face, point, &values) != Ordering::Less)
+}
+
+/// So many representable values up or down.
+fn walk<T: Real>(value: T, steps: i32) -> T {
+    (0..steps.abs()).fold(value, |v, _| {
+        if steps < 0 {
+            v.next_down()
+        } else {
+            v.next_up()
+        }
+    })
+}
+
+/// Whether the values on both sides are equally far, two steps out.
+fn evenly_spaced<T: Real>(value: T) -> bool {
+    let gap = |a: T, b: T| a.to_f64() - b.to_f64();
+    let (low, high) = (walk(value, -2), walk(value, 2));
+    low.is_finite() && high.is_finite() && gap(high, value) == gap(value, low) && {
+        let step = gap(value.next_up(), value);
+        gap(high, value) == 2.0 * step && gap(value, value.next_down()) == step
+    }
+}
+
+/// Whether a value is within 2 ulp of the exact coordinate. One ulp is the
+/// spacing of the representable values where the exact one lies.
+fn within_two_ulp<T: Real>(exact: &ExactPoint, k: usize, value: T) -> bool {
+    if !value.is_finite() {
+        return false;
+    }
+    // The representable values that enclose the exact one.
+    let mut low = value;
+    for _ in 0..2 * REACH {
+        match exact.order(k, low.to_f64()) {
+            Ordering::Less => low = low.next_down(),
+            _ if exact.order(k, low.next_up().to_f64()) == Ordering::Less => break,
+            _ => low = low.next_up(),
+        }
+    }
+    // On a representable value, its own ulp: the spacing away from zero.
+    let ulp = if low < T::ZERO && exact.order(k, low.to_f64()) == Ordering::Equal {
+        low.to_f64() - low.next_down().to_f64()
+    } else {
+        low.next_up().to_f64() - low.to_f64()
+    };
+    exact.distance_order(k, value.to_f64(), 2.0 * ulp) != Ordering::Greater
+}

@@ -1,0 +1,330 @@
+//! Parameters and points of a decided segment.
+//!
+//! With A and B the magnitudes of the crossed face's boundary values at start
+//! and end, the crossing is at t = A / (A + B), and each coordinate is
+//! `(B start + A end) / (A + B)`.
+//!
+//! *Fast* takes A and B with a relative error of at most 2 u and steps from the
+//! end with the smaller value, a fraction tau <= 1/2 of the way (ties: from
+//! the lexicographically smaller point), so that swapping the ends gives the
+//! same bits. With M the largest coordinate: tau is within
+//! tau (1 - tau) 4 u + 2 u tau <= 2 u, which moves the point by at most
+//! 2 u * 2 M; the difference of the ends, the product and the sum add
+//! u M each: 7 u M together, below the promised 8. t is tau or 1 - tau: within
+//! 2.5 u.
+//!
+//! *Nearest* evaluates in double-double with an error bound, and rounds where
+//! both ends of the error interval round alike (Ziv's test); else in integers.
+
+use super::decide::{At, Decision};
+use super::inward;
+use super::staged::Staged;
+use crate::clip::{Accuracy, Part, PartEnd, SegmentClip};
+use crate::exact::Number;
+use crate::exact::double_double::Dd;
+use crate::exact::dyadic::Dyadic;
+use crate::frustum::{Face, FaceSet};
+use crate::math::{End, Real, Segment, Vec3};
+use std::cmp::Ordering;
+
+/// The result for a decided segment.
+#[inline]
+pub(crate) fn build<T: Real>(
+    staged: &mut Staged<'_>,
+    segment: &Segment<T>,
+    decision: &Decision,
+    accuracy: Accuracy,
+) -> SegmentClip<T> {
+    let mut entry = end(staged, segment, decision, 0, accuracy);
+    let mut exit = if decision.at[0] == decision.at[1] {
+        PartEnd {
+            clipped: decision.clipped[1],
+            ..entry
+        }
+    } else {
+        end(staged, segment, decision, 1, accuracy)
+    };
+    if exit.t < entry.t {
+        // Both are within the bound of the exact parameters, which are in
+        // order; so is the greater of the two.
+        exit.t = entry.t;
+    }
+    if accuracy == Accuracy::Inward || !entry.clipped {
+        entry.inward |= !entry.clipped;
+    }
+    SegmentClip {
+        class: decision.class,
+        part: Some(Part {
+            entry,
+            exit,
+            coplanar: decision.coplanar,
+        }),
+    }
+}
+
+#[inline(always)]
+fn end<T: Real>(
+    staged: &mut Staged<'_>,
+    segment: &Segment<T>,
+    decision: &Decision,
+    which: usize,
+    accuracy: Accuracy,
+) -> PartEnd<T> {
+    let faces = decision.faces[which];
+    let (t, point, inward) = match decision.at[which] {
+        At::End(End::Start) => (T::ZERO, segment.start, true),
+        At::End(End::End) => (T::ONE, segment.end, true),
+        At::Crossing(face) => crossing(staged, face, faces, accuracy),
+    };
+    PartEnd {
+        t,
+        point,
+        clipped: decision.clipped[which],
+        faces,
+        inward,
+    }
+}
+
+/// Parameter, point, and whether the point is known to be in the frustum.
+#[inline]
+fn crossing<T: Real>(
+    staged: &mut Staged<'_>,
+    face: Face,
+    faces: FaceSet,
+    accuracy: Accuracy,
+) -> (T, Vec3<T>, bool) {
+    match accuracy {
+        Accuracy::Fast => {
+            let (t, point) = fast(staged, face, faces);
+            (t, point, false)
+        }
+        Accuracy::Nearest => {
+            let (t, point) = nearest(staged, face);
+            (t, point, false)
+        }
+        Accuracy::Inward => {
+            let (t, point) = nearest(staged, face);
+            let (point, inward) = inward::search(staged, face, point);
+            (t, point, inward)
+        }
+    }
+}
+
+/// Where on the segment, seen from the end with the smaller boundary value.
+struct Step {
+    from: End,
+    tau: f64,
+}
+
+impl Step {
+    /// From the magnitudes at start and end.
+    #[inline(always)]
+    fn new(a: f64, b: f64, segment: &Segment<f64>) -> Self {
+        Step {
+            from: nearer(a.partial_cmp(&b), segment),
+            tau: a.min(b) / (a + b),
+        }
+    }
+}
+
+/// The end to step from, by the order of the values at start and end.
+#[inline(always)]
+fn nearer(order: Option<Ordering>, segment: &Segment<f64>) -> End {
+    match order {
+        Some(Ordering::Less) => End::Start,
+        Some(Ordering::Greater) => End::End,
+        _ if segment.start.to_array() <= segment.end.to_array() => End::Start,
+        _ => End::End,
+    }
+}
+
+/// How far the rounded values must be from zero for f32 output: their error is
+/// below a tenth of a threshold, so then below 2^-25 of them.
+const F32_FACTOR: f64 = 4_194_304.0;
+
+/// Boundary values to 2 u. The way they are found depends on the two points
+/// and the face alone, not on which point comes first nor on the algorithm.
+#[inline(always)]
+fn step<T: Real>(staged: &mut Staged<'_>, face: Face) -> Step {
+    let [p, q] = [0, 1].map(|i| staged.values[i].g[face as usize].abs());
+    let depth = matches!(face, Face::Near | Face::Far) && staged.filter().identity;
+    let plain = staged.lattice
+        || (depth && p.max(q) < f64::MAX / 4.0)
+        || (T::DIGITS == 24 && staged.certain(face, F32_FACTOR));
+    if plain {
+        return Step::new(p, q, &staged.segment);
+    }
+    if staged.certain(face, 1.0) {
+        let filter = staged.filter();
+        let value = |p| filter.precise(face, p).hi.abs();
+        let Segment { start, end } = staged.segment;
+        return Step::new(value(start), value(end), &staged.segment);
+    }
+    exact_step(staged, face)
+}
+
+#[cold]
+fn exact_step(staged: &mut Staged<'_>, face: Face) -> Step {
+    if let Some([a, b]) = staged.expansions(face) {
+        return Step::new(a.estimate().abs(), b.estimate().abs(), &staged.segment);
+    }
+    let [a, b] = staged.integers(face).map(Dyadic::abs);
+    let order = sum(&a, &b.clone().neg()).sign();
+    let least = if order == Ordering::Greater { &b } else { &a };
+    Step {
+        from: nearer(Some(order), &staged.segment),
+        tau: least.round_quotient(&sum(&a, &b)),
+    }
+}
+
+fn sum(a: &Dyadic, b: &Dyadic) -> Dyadic {
+    a.add(b).unwrap_or_else(|| a.clone())
+}
+
+#[inline]
+fn fast<T: Real>(staged: &mut Staged<'_>, face: Face, faces: FaceSet) -> (T, Vec3<T>) {
+    let Step { from, tau } = step::<T>(staged, face);
+    let Segment { start, end } = staged.segment;
+    let (a, b, t) = match from {
+        End::Start => (start, end, tau),
+        End::End => (end, start, 1.0 - tau),
+    };
+    let mut point = Vec3::new(
+        between(a.x, b.x, tau),
+        between(a.y, b.y, tau),
+        between(a.z, b.z, tau),
+    );
+    if staged.filter().identity {
+        // The exact hit has exactly this coordinate.
+        let shape = staged.frustum.shape();
+        if faces.contains(Face::Near) {
+            point.z = shape.near().z;
+        } else if faces.contains(Face::Far) {
+            point.z = shape.far().map_or(point.z, |far| far.z);
+        }
+    }
+    (T::from_f64(t), Vec3::from_f64(point))
+}
+
+/// `a + tau (b - a)`.
+#[inline(always)]
+fn between(a: f64, b: f64, tau: f64) -> f64 {
+    let difference = b - a;
+    if difference.is_finite() {
+        a + tau * difference
+    } else {
+        2.0 * (0.5 * a + tau * (0.5 * b - 0.5 * a))
+    }
+}
+
+/// Correctly rounded parameter and point.
+fn nearest<T: Real>(staged: &mut Staged<'_>, face: Face) -> (T, Vec3<T>) {
+    if staged.certain(face, 1.0)
+        && let Some(result) = nearest_double_double(staged, face)
+    {
+        return result;
+    }
+    let exact = ExactPoint::new(staged, face);
+    (exact.parameter(), exact.rounded())
+}
+
+/// 2^-99: covers the relative errors of a handful of double-double operations.
+const DD_ERROR: f64 = 1.5777218104420236e-30;
+
+fn nearest_double_double<T: Real>(staged: &Staged<'_>, face: Face) -> Option<(T, Vec3<T>)> {
+    let filter = staged.filter();
+    let Segment { start, end } = staged.segment;
+    let a = filter.precise(face, start).abs();
+    let b = filter.precise(face, end).abs();
+    let total = a.add(b);
+    let from_start = a.hi <= b.hi;
+    let tau = if from_start { a } else { b }.div(total);
+    // The values are within 60 u^2 scale < 2^-54 thresholds.
+    let threshold = |v| filter.threshold(face, v);
+    let threshold = threshold(staged.values[0].size).max(threshold(staged.values[1].size));
+    let tau_error = 1.2e-16 * threshold / total.hi + DD_ERROR;
+    let t = if from_start {
+        tau
+    } else {
+        Dd::new(1.0, 0.0).add(tau.neg())
+    };
+    let (from, to) = if from_start {
+        (start, end)
+    } else {
+        (end, start)
+    };
+    let coordinate = |k: usize| {
+        if from[k] == to[k] {
+            return Some(T::from_f64(from[k]));
+        }
+        let d = Dd::difference(to[k], from[k]);
+        let v = Dd::new(from[k], 0.0).add(tau.mul(d));
+        let error = d.hi.abs() * tau_error + DD_ERROR * (from[k].abs() + d.hi.abs());
+        round(v, error)
+    };
+    let point = Vec3::new(coordinate(0)?, coordinate(1)?, coordinate(2)?);
+    Some((round(t, tau_error)?, point))
+}
+
+/// The value rounded to `T`, if everything within `error` of it rounds alike.
+fn round<T: Real>(v: Dd, error: f64) -> Option<T> {
+    // Products of tiny numbers lose bits that no relative bound covers.
+    let error = 2.0 * error + 1e-315;
+    let (mut low, mut high) = (v.hi + (v.lo - error), v.hi + (v.lo + error));
+    if T::DIGITS == 24 {
+        // Real bounds, not rounded ones: no double rounding.
+        (low, high) = (low.next_down(), high.next_up());
+    }
+    let (low, high) = (T::from_f64(low), T::from_f64(high));
+    (low == high).then_some(low)
+}
+
+/// A crossing as ratios of integers.
+pub(super) struct ExactPoint {
+    numerators: [Dyadic; 3],
+    at: Dyadic,
+    denominator: Dyadic,
+}
+
+impl ExactPoint {
+    pub(super) fn new(staged: &mut Staged<'_>, face: Face) -> Self {
+        let [a, b] = staged.integers(face).map(Dyadic::abs);
+        let Segment { start, end } = staged.segment;
+        let numerators = [0, 1, 2].map(|k| {
+            let from = product(&Dyadic::from_f64(start[k]), &b);
+            sum(&from, &product(&Dyadic::from_f64(end[k]), &a))
+        });
+        ExactPoint {
+            numerators,
+            denominator: sum(&a, &b),
+            at: a,
+        }
+    }
+
+    fn parameter<T: Real>(&self) -> T {
+        self.at.round_quotient(&self.denominator)
+    }
+
+    fn rounded<T: Real>(&self) -> Vec3<T> {
+        let [x, y, z] = [0, 1, 2].map(|k| self.numerators[k].round_quotient(&self.denominator));
+        Vec3::new(x, y, z)
+    }
+
+    /// The sign of `|coordinate k - value| - distance`.
+    pub(super) fn distance_order(&self, k: usize, value: f64, distance: f64) -> Ordering {
+        let value = product(&Dyadic::from_f64(-value), &self.denominator);
+        let gap = sum(&self.numerators[k], &value).abs();
+        let distance = product(&Dyadic::from_f64(-distance), &self.denominator);
+        sum(&gap, &distance).sign()
+    }
+
+    /// The order of coordinate k to a value.
+    pub(super) fn order(&self, k: usize, value: f64) -> Ordering {
+        let value = product(&Dyadic::from_f64(-value), &self.denominator);
+        sum(&self.numerators[k], &value).sign()
+    }
+}
+
+fn product(a: &Dyadic, b: &Dyadic) -> Dyadic {
+    a.mul(b).unwrap_or_else(|| a.clone())
+}

@@ -1,0 +1,223 @@
+//! The predicates in stages, each of which hands on what it cannot settle.
+//!
+//! 1. *Filter*: floating point with an error bound ([`Filter`]).
+//! 2. *Lattice*: on coarse coordinates floating point makes no error at all,
+//!    so that touching is decided as fast as the rest. CAD data lives there.
+//! 3. *Expansions*, inside the range of exponents where they are exact.
+//! 4. *Integers*, for everything else. The only stage that allocates.
+
+use crate::clip::StageCounts;
+use crate::clip::predicates::Predicates;
+use crate::exact::Number;
+use crate::exact::dyadic::Dyadic;
+use crate::exact::expansion::{Expansion, in_safe_range};
+use crate::frustum::boundary::boundary;
+use crate::frustum::filter::{Filter, Values};
+use crate::frustum::{Face, Frustum};
+use crate::math::{End, Segment, Vec3};
+use std::cmp::Ordering;
+
+/// A segment and a frustum, and what is known about them.
+pub(crate) struct Staged<'a> {
+    pub(crate) frustum: &'a Frustum,
+    pub(crate) segment: Segment<f64>,
+    /// At start and end.
+    pub(crate) values: [Values; 2],
+    /// Whether plain arithmetic is exact here.
+    pub(crate) lattice: bool,
+    counts: StageCounts,
+    /// Whether the filter has failed for this segment.
+    failed: bool,
+}
+
+/// The product of an error bound and a value may underflow; this does not.
+const TINY: f64 = 1e-300;
+
+impl<'a> Staged<'a> {
+    pub(crate) fn new(frustum: &'a Frustum, segment: Segment<f64>) -> Self {
+        let filter = frustum.filter();
+        let values = [filter.values(segment.start), filter.values(segment.end)];
+        let lattice = filter.is_lattice(segment.start, values[0].size)
+            && filter.is_lattice(segment.end, values[1].size);
+        Staged::with(frustum, segment, values, lattice)
+    }
+
+    #[inline(always)]
+    pub(crate) fn with(
+        frustum: &'a Frustum,
+        segment: Segment<f64>,
+        values: [Values; 2],
+        lattice: bool,
+    ) -> Self {
+        Staged {
+            frustum,
+            segment,
+            values,
+            lattice,
+            counts: StageCounts::default(),
+            failed: false,
+        }
+    }
+
+    /// Adds what this segment needed to a caller's counts.
+    pub(crate) fn add_to(&self, counts: &mut StageCounts) {
+        counts.filter_failures += u64::from(self.failed);
+        counts.expansions += self.counts.expansions;
+        counts.integers += self.counts.integers;
+    }
+
+    pub(crate) fn filter(&self) -> &'a Filter {
+        self.frustum.filter()
+    }
+
+    pub(crate) fn point(&self, end: End) -> Vec3<f64> {
+        match end {
+            End::Start => self.segment.start,
+            End::End => self.segment.end,
+        }
+    }
+
+    /// Whether a face's rounded values at both ends exceed `factor` thresholds.
+    #[inline(always)]
+    pub(crate) fn certain(&self, face: Face, factor: f64) -> bool {
+        let filter = self.filter();
+        self.values.iter().all(|v| {
+            filter.covers(v.size)
+                && v.g[face as usize].abs() > factor * filter.threshold(face, v.size)
+        })
+    }
+
+    /// The sign of a face's boundary function at any point.
+    pub(crate) fn sign_at(&mut self, face: Face, p: Vec3<f64>, values: &Values) -> Ordering {
+        let filter = self.filter();
+        if let Some(sign) = filter.sign(face, values) {
+            return sign;
+        }
+        self.failed = true;
+        if self.filter().expansions && fits(p) {
+            if let Some(value) = boundary::<Expansion>(self.frustum, face, p) {
+                self.counts.expansions += 1;
+                return value.sign();
+            }
+        }
+        self.counts.integers += 1;
+        self.integer(face, p).sign()
+    }
+
+    /// Both boundary values of a face as expansions, if there is room.
+    pub(crate) fn expansions(&mut self, face: Face) -> Option<[Expansion; 2]> {
+        let Segment { start, end } = self.segment;
+        if !(self.filter().expansions && fits(start) && fits(end)) {
+            return None;
+        }
+        let values = [
+            boundary(self.frustum, face, start)?,
+            boundary(self.frustum, face, end)?,
+        ];
+        self.counts.expansions += 1;
+        Some(values)
+    }
+
+    /// Both boundary values of a face as integers.
+    pub(crate) fn integers(&mut self, face: Face) -> [Dyadic; 2] {
+        self.counts.integers += 1;
+        let Segment { start, end } = self.segment;
+        [self.integer(face, start), self.integer(face, end)]
+    }
+
+    fn integer(&self, face: Face, p: Vec3<f64>) -> Dyadic {
+        // Integers have room for everything, so the fallback is never taken.
+        boundary(self.frustum, face, p).unwrap_or_else(|| Dyadic::from_f64(0.0))
+    }
+
+    /// `f_a(q) f_b(p) - f_a(p) f_b(q)` from rounded values, if certain.
+    fn filtered_cross(&self, a: Face, b: Face) -> Option<Ordering> {
+        let filter = self.filter();
+        let [p, q] = &self.values;
+        let (pa, qa) = (p.g[a as usize], q.g[a as usize]);
+        let (pb, qb) = (p.g[b as usize], q.g[b as usize]);
+        let cross = qa * pb - pa * qb;
+        if self.lattice {
+            return cross.partial_cmp(&0.0);
+        }
+        if !(filter.covers(p.size) && filter.covers(q.size)) {
+            return None;
+        }
+        // Each value is within an eighth of its threshold, and T >= 128 u g
+        // covers the products' own rounding; the sum below is four times both.
+        let t = |face, v: &Values| filter.threshold(face, v.size);
+        let (tpa, tqa) = (t(a, p), t(a, q));
+        let (tpb, tqb) = (t(b, p), t(b, q));
+        let bound = tqa * pb.abs() + tpb * qa.abs() + tpa * qb.abs() + tqb * pa.abs();
+        let bound = bound + (tqa * tpb + tpa * tqb) + TINY;
+        (cross.abs() > bound).then(|| {
+            if cross > 0.0 {
+                Ordering::Greater
+            } else {
+                Ordering::Less
+            }
+        })
+    }
+
+    fn exact_cross(&mut self, a: Face, b: Face) -> Ordering {
+        self.failed = true;
+        if let Some([pa, qa]) = self.expansions(a)
+            && let Some([pb, qb]) = self.expansions(b)
+            && let Some(cross) = cross(&pa, &qa, &pb, &qb)
+        {
+            return cross.sign();
+        }
+        let [pa, qa] = self.integers(a);
+        let [pb, qb] = self.integers(b);
+        cross(&pa, &qa, &pb, &qb).map_or(Ordering::Equal, |c| c.sign())
+    }
+
+    /// Whether a face's value falls from start to end.
+    fn leaves(&mut self, face: Face) -> bool {
+        self.side(face, End::End) == Ordering::Less
+    }
+}
+
+/// `qa pb - pa qb`.
+fn cross<N: Number>(pa: &N, qa: &N, pb: &N, qb: &N) -> Option<N> {
+    qa.mul(pb)?.sub(pa.mul(qb)?)
+}
+
+fn fits(p: Vec3<f64>) -> bool {
+    p.to_array().into_iter().all(in_safe_range)
+}
+
+impl Predicates for Staged<'_> {
+    fn faces(&self) -> &'static [Face] {
+        self.frustum.faces()
+    }
+
+    #[inline(always)]
+    fn side(&mut self, face: Face, end: End) -> Ordering {
+        let values = self.values[end as usize];
+        if self.lattice {
+            let g = values.g[face as usize];
+            return g.partial_cmp(&0.0).unwrap_or(Ordering::Equal);
+        }
+        self.sign_at(face, self.point(end), &values)
+    }
+
+    /// With values p, q of the two faces at start and end,
+    /// `t_a - t_b = (qa pb - pa qb) / ((pa - qa) (pb - qb))`, and `pa - qa` is
+    /// positive exactly for a face that the segment leaves.
+    #[inline(always)]
+    fn order(&mut self, a: Face, b: Face) -> Ordering {
+        if a == b {
+            return Ordering::Equal;
+        }
+        let cross = match self.filtered_cross(a, b) {
+            Some(cross) => cross,
+            None => self.exact_cross(a, b),
+        };
+        if self.leaves(a) == self.leaves(b) {
+            cross
+        } else {
+            cross.reverse()
+        }
+    }
+}

@@ -1,0 +1,172 @@
+//! Sums of a few doubles that do not overlap: exact arithmetic on the stack.
+//!
+//! Source: Shewchuk, "Adaptive precision floating-point arithmetic and fast
+//! robust geometric predicates" (1997). Components are kept in order of
+//! growing magnitude, without zeros and without common bits.
+//!
+//! Everything is built from one step, adding a double to an expansion
+//! (Shewchuk's GROW-EXPANSION, theorem 10), which is right for any expansion
+//! without overlap. The linear-time merges need stronger properties of their
+//! input, and at two to eight components they are not faster.
+//!
+//! Exact as long as no product has bits below 2^-1074 and nothing overflows:
+//! the caller checks the range of its input ([`in_safe_range`]). A result of
+//! more than [`CAPACITY`] components is refused.
+
+use super::Number;
+use super::float::{fast_two_sum, two_diff, two_prod, two_sum};
+use std::cmp::Ordering;
+
+/// The most components an expansion can have.
+pub(crate) const CAPACITY: usize = 24;
+
+/// Whether a double may enter a polynomial of degree 6: zero, or of magnitude
+/// 2^-125 .. 2^150. Six factors then have no bit below 2^(-6*(125+52)) > 2^-1074
+/// and no sum of them reaches 2^1000.
+#[inline]
+pub(crate) fn in_safe_range(value: f64) -> bool {
+    let magnitude = value.abs();
+    magnitude == 0.0 || (LEAST..MOST).contains(&magnitude)
+}
+
+/// 2^-125.
+const LEAST: f64 = 2.350988701644575e-38;
+/// 2^150.
+const MOST: f64 = 1.42724769270596e45;
+
+/// An exact sum of doubles.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Expansion {
+    len: usize,
+    parts: [f64; CAPACITY],
+}
+
+impl Expansion {
+    const ZERO: Expansion = Expansion {
+        len: 0,
+        parts: [0.0; CAPACITY],
+    };
+
+    fn parts(&self) -> &[f64] {
+        &self.parts[..self.len]
+    }
+
+    /// Adds one double. `None` if there is no room.
+    fn grow(&mut self, value: f64) -> Option<()> {
+        let mut carry = value;
+        let mut kept = 0;
+        for i in 0..self.len {
+            let (sum, rest) = two_sum(carry, self.parts[i]);
+            carry = sum;
+            if rest != 0.0 {
+                self.parts[kept] = rest;
+                kept += 1;
+            }
+        }
+        self.len = kept;
+        if carry != 0.0 {
+            *self.parts.get_mut(kept)? = carry;
+            self.len += 1;
+        }
+        Some(())
+    }
+
+    /// The same value in as few components as possible; the last one then is
+    /// the value within one unit in its last place (Shewchuk's COMPRESS).
+    fn compress(&mut self) {
+        if self.len < 2 {
+            return;
+        }
+        let mut bottom = self.len;
+        let mut carry = self.parts[self.len - 1];
+        for i in (0..self.len - 1).rev() {
+            let (sum, rest) = fast_two_sum(carry, self.parts[i]);
+            if rest == 0.0 {
+                carry = sum;
+            } else {
+                bottom -= 1;
+                self.parts[bottom] = sum;
+                carry = rest;
+            }
+        }
+        bottom -= 1;
+        self.parts[bottom] = carry;
+        let mut kept = 0;
+        let mut carry = self.parts[bottom];
+        for i in bottom + 1..self.len {
+            let (sum, rest) = fast_two_sum(self.parts[i], carry);
+            carry = sum;
+            if rest != 0.0 {
+                self.parts[kept] = rest;
+                kept += 1;
+            }
+        }
+        self.parts[kept] = carry;
+        self.len = if carry == 0.0 { kept } else { kept + 1 };
+    }
+
+    /// The value with a relative error of at most `u (1 + 4 u)`.
+    pub(crate) fn estimate(&self) -> f64 {
+        self.parts().iter().fold(0.0, |sum, part| sum + part)
+    }
+}
+
+impl Number for Expansion {
+    fn from_f64(value: f64) -> Self {
+        let mut e = Expansion::ZERO;
+        e.parts[0] = value;
+        e.len = usize::from(value != 0.0);
+        e
+    }
+
+    fn difference(a: f64, b: f64) -> Self {
+        let (high, low) = two_diff(a, b);
+        let mut e = Expansion::from_f64(low);
+        if high != 0.0 {
+            e.parts[e.len] = high;
+            e.len += 1;
+        }
+        e
+    }
+
+    fn add(&self, other: &Self) -> Option<Self> {
+        let mut sum = *self;
+        for &part in other.parts() {
+            sum.grow(part)?;
+        }
+        sum.compress();
+        Some(sum)
+    }
+
+    fn mul(&self, other: &Self) -> Option<Self> {
+        // Many components: the big integers are faster.
+        if 2 * self.len * other.len > CAPACITY {
+            return None;
+        }
+        let mut product = Expansion::ZERO;
+        for &a in self.parts() {
+            for &b in other.parts() {
+                let (high, low) = two_prod(a, b);
+                product.grow(low)?;
+                product.grow(high)?;
+            }
+        }
+        product.compress();
+        Some(product)
+    }
+
+    fn neg(mut self) -> Self {
+        for part in &mut self.parts[..self.len] {
+            *part = -*part;
+        }
+        self
+    }
+
+    fn sign(&self) -> Ordering {
+        match self.parts().last() {
+            None => Ordering::Equal,
+            Some(&top) if top > 0.0 => Ordering::Greater,
+            Some(_) => Ordering::Less,
+        }
+    }
+}

@@ -1,0 +1,104 @@
+//! Error-free transformations: a rounded result and what the rounding lost.
+//!
+//! Sources: Dekker (1971), Knuth (TAOCP 2, 4.2.2), Shewchuk (1997). Exact
+//! wherever nothing overflows and no product's low part underflows. No fused
+//! multiply-add: the same bits on every machine.
+
+/// `a + b` rounded, and the rest: `s + e = a + b`.
+#[inline(always)]
+pub(crate) fn two_sum(a: f64, b: f64) -> (f64, f64) {
+    let s = a + b;
+    let bb = s - a;
+    (s, (a - (s - bb)) + (b - bb))
+}
+
+/// As [`two_sum`], for `|a| >= |b|` or `a = 0`.
+#[inline(always)]
+pub(crate) fn fast_two_sum(a: f64, b: f64) -> (f64, f64) {
+    let s = a + b;
+    (s, b - (s - a))
+}
+
+/// `a - b` rounded, and the rest.
+#[inline(always)]
+pub(crate) fn two_diff(a: f64, b: f64) -> (f64, f64) {
+    two_sum(a, -b)
+}
+
+/// 2^27 + 1, which splits 53 bits into 26 and 26 with a sign.
+const SPLITTER: f64 = 134_217_729.0;
+
+/// The upper and the lower half of a double's bits.
+#[inline(always)]
+fn split(a: f64) -> (f64, f64) {
+    let c = SPLITTER * a;
+    let high = c - (c - a);
+    (high, a - high)
+}
+
+/// `a * b` rounded, and the rest: `p + e = a * b`.
+#[inline(always)]
+pub(crate) fn two_prod(a: f64, b: f64) -> (f64, f64) {
+    let p = a * b;
+    let (ah, al) = split(a);
+    let (bh, bl) = split(b);
+    (p, al * bl - (((p - ah * bh) - al * bh) - ah * bl))
+}
+
+/// The exponent of a double's lowest set bit; `None` for zero.
+pub(crate) fn lowest_bit(value: f64) -> Option<i32> {
+    let (mantissa, exponent) = decompose(value);
+    (mantissa != 0).then(|| exponent + mantissa.trailing_zeros().cast_signed())
+}
+
+/// A finite double as `mantissa * 2^exponent`, sign left out.
+pub(crate) fn decompose(value: f64) -> (u64, i32) {
+    let bits = value.to_bits();
+    let fraction = bits & ((1 << 52) - 1);
+    let biased = i32::try_from((bits >> 52) & 0x7ff).unwrap_or(0);
+    if biased == 0 {
+        (fraction, -1074)
+    } else {
+        (fraction | 1 << 52, biased - 1075)
+    }
+}
+
+/// 2 to an integer power; 0 below the subnormals, infinite above the range.
+pub(crate) fn exp2(exponent: i32) -> f64 {
+    match exponent {
+        1024.. => f64::INFINITY,
+        -1022.. => f64::from_bits(u64::from((exponent + 1023).unsigned_abs()) << 52),
+        -1074.. => f64::from_bits(1 << (exponent + 1074)),
+        _ => 0.0,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sums_and_products_lose_nothing() {
+        let (s, e) = two_sum(1e16, 1.5);
+        assert_eq!((s, e), (1e16 + 2.0, -0.5));
+        let a = 1.0 + f64::EPSILON;
+        let (p, e) = two_prod(a, a);
+        assert_eq!(
+            (p, e),
+            (1.0 + 2.0 * f64::EPSILON, f64::EPSILON * f64::EPSILON)
+        );
+        assert_eq!(two_diff(1.0, 1e-30), (1.0, -1e-30));
+    }
+
+    #[test]
+    fn doubles_come_apart() {
+        assert_eq!(lowest_bit(0.0), None);
+        assert_eq!(lowest_bit(-6.0), Some(1));
+        assert_eq!(lowest_bit(5e-324), Some(-1074));
+        assert_eq!(decompose(-1.0), (1 << 52, -52));
+        for e in -1074..1024 {
+            assert_eq!(lowest_bit(exp2(e)), Some(e));
+        }
+        assert_eq!((exp2(-1075), exp2(1024)), (0.0, f64::INFINITY));
+    }
+}

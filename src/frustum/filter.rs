@@ -1,0 +1,472 @@
+//! The floating-point filter: boundary values in double precision with a bound
+//! on their error, from constants prepared once for a frustum.
+//!
+//! # Values
+//! In the frame, with w = s (z - z_near) the depth, a side's bound is
+//! `n + m w`, m = (f - n) / |D| its slope per unit of depth (see
+//! [`super::boundary`] for the letters), and the values are
+//! `g = x - (n + m w)` and `(n + m w) - x`: the boundary functions divided by
+//! |D| > 0, so with the same signs and the same crossing parameters.
+//!
+//! # The error bound
+//! u = 2^-53. Let S = sum_j |p_j - o_j| (rounded), A_k the largest magnitude
+//! in axis k, and *scale* = |n| + |m| |z_near| + (A_x + |m| A_z) S.
+//! Rounding: p_j - o_j has relative error u, a frame coordinate
+//! `fl(a.c)` is within 4.01 u A S of the exact one; z - z_near adds
+//! u (|z| + |z_near|), the rounded slope u, the product u, the two sums
+//! u (|n| + |m w|) and u |g|. Added up:
+//! |g~ - g| <= 9.2 u scale, plus underflow, which [`FLOOR`] covers.
+//! With the identity pose 5.1 u scale.
+//!
+//! A double-double evaluation of the same expression, with the slope to 106
+//! bits, is within 60 u^2 scale: at most 6 operations deep, each with a
+//! relative error of at most 5 u^2 (15 u^2 for the slope) in terms that add up
+//! to scale.
+//!
+//! The *threshold* is T = 2^-46 scale + FLOOR = 128 u scale + FLOOR. So
+//! |g~| > T means:
+//! - the sign of g~ is the sign of g, with a factor of 13 to spare;
+//! - the double-double value has a relative error below u / 2.
+//!
+//! T is evaluated as `const + factor * S`, its rounding covered by that factor.
+//! The comparison is written with `>`, so that NaN and infinity fail it.
+
+use super::{Face, Frustum, Shape};
+use crate::exact::double_double::Dd;
+use crate::exact::expansion::in_safe_range;
+use crate::exact::float::{exp2, lowest_bit, two_diff, two_prod, two_sum};
+use crate::math::{Pose, Vec3};
+use std::cmp::Ordering;
+
+/// 2^-46.
+const RELATIVE: f64 = 1.4210854715202004e-14;
+/// 2^-500: far above what underflow can do inside [`in_range`], far below
+/// every scale.
+const FLOOR: f64 = 3.0549363634996047e-151;
+/// Stands for the far value of an infinite frustum: never crossed.
+pub(crate) const NO_FAR: f64 = 1e300;
+
+/// Constants prepared for a frustum.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Filter {
+    pub(crate) identity: bool,
+    pub(crate) infinite: bool,
+    /// The direction of depth, 1 or -1.
+    sigma: f64,
+    near: f64,
+    far: f64,
+    /// left, right, bottom, top at the near end.
+    at_near: [f64; 4],
+    /// Change of the four bounds for a unit of depth, to 106 bits.
+    slope: [f64; 4],
+    slope_low: [f64; 4],
+    origin: Vec3<f64>,
+    axes: [Vec3<f64>; 3],
+    /// Thresholds: `side.0 + side.1 * S`.
+    side: (f64, f64),
+    depth: (f64, f64),
+    /// S must be below this; 0 where the filter does not apply at all.
+    limit: f64,
+    lattice: Option<Lattice>,
+    /// Whether the frustum's numbers fit expansions.
+    pub(crate) expansions: bool,
+}
+
+/// Coordinates for which plain arithmetic makes no error at all.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Lattice {
+    /// `(v + round) - round == v` exactly if v is a multiple of the unit.
+    round: f64,
+    /// S must be below this.
+    limit: f64,
+}
+
+/// The six boundary values at a point, rounded.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Values {
+    /// In the order of [`Face::ALL`].
+    pub(crate) g: [f64; 6],
+    /// S, the size of the point as the bound sees it.
+    pub(crate) size: f64,
+}
+
+impl Filter {
+    /// The values at a point, in the fixed order of operations that the error
+    /// bound is for.
+    #[inline(always)]
+    pub(crate) fn values(&self, p: Vec3<f64>) -> Values {
+        let (q, size) = self.frame(p);
+        let depth = self.sigma * (q.z - self.near);
+        let far = if self.infinite {
+            NO_FAR
+        } else {
+            self.sigma * (self.far - q.z)
+        };
+        let bound = |i: usize| self.at_near[i] + self.slope[i] * depth;
+        let g = [
+            depth,
+            far,
+            q.x - bound(0),
+            bound(1) - q.x,
+            q.y - bound(2),
+            bound(3) - q.y,
+        ];
+        Values { g, size }
+    }
+
+    /// Rounded frame coordinates, and S.
+    #[inline(always)]
+    fn frame(&self, p: Vec3<f64>) -> (Vec3<f64>, f64) {
+        let size = |v: Vec3<f64>| v.x.abs() + v.y.abs() + v.z.abs();
+        if self.identity {
+            return (p, size(p));
+        }
+        let c = p - self.origin;
+        let [x, y, z] = self.axes;
+        (Vec3::new(x.dot(c), y.dot(c), z.dot(c)), size(c))
+    }
+
+    /// Whether the bound holds for points of this size. False for NaN.
+    #[inline(always)]
+    pub(crate) fn covers(&self, size: f64) -> bool {
+        size < self.limit
+    }
+
+    /// The threshold of the four sides at a point of this size.
+    #[inline(always)]
+    pub(crate) fn side_threshold(&self, size: f64) -> f64 {
+        self.side.0 + self.side.1 * size
+    }
+
+    /// The threshold of near and far.
+    #[inline(always)]
+    pub(crate) fn depth_threshold(&self, size: f64) -> f64 {
+        self.depth.0 + self.depth.1 * size
+    }
+
+    /// A face's threshold.
+    #[inline(always)]
+    pub(crate) fn threshold(&self, face: Face, size: f64) -> f64 {
+        match face {
+            Face::Near | Face::Far => self.depth_threshold(size),
+            _ => self.side_threshold(size),
+        }
+    }
+
+    /// The sign of a boundary function, where the rounded value settles it. With
+    /// the identity pose the difference of two doubles has the exact sign.
+    #[inline(always)]
+    pub(crate) fn sign(&self, face: Face, values: &Values) -> Option<Ordering> {
+        let g = values.g[face as usize];
+        if !self.covers(values.size) {
+            return None;
+        }
+        if self.identity && matches!(face, Face::Near | Face::Far) {
+            return g.partial_cmp(&0.0);
+        }
+        let t = self.threshold(face, values.size);
+        if g > t {
+            Some(Ordering::Greater)
+        } else if g < -t {
+            Some(Ordering::Less)
+        } else {
+            None
+        }
+    }
+
+    /// Whether all values at this point, and products of two of them, are free
+    /// of rounding errors.
+    #[inline(always)]
+    pub(crate) fn is_lattice(&self, p: Vec3<f64>, size: f64) -> bool {
+        let Some(lattice) = self.lattice else {
+            return false;
+        };
+        let on = |v: f64| (v + lattice.round) - lattice.round == v;
+        size < lattice.limit && on(p.x) && on(p.y) && on(p.z)
+    }
+
+    /// A boundary value in double-double, error at most 60 u^2 scale.
+    #[inline(always)]
+    pub(crate) fn precise(&self, face: Face, p: Vec3<f64>) -> Dd {
+        let (axis, side) = match face {
+            Face::Near => return self.precise_depth(p, self.near, self.sigma),
+            Face::Far => return self.precise_depth(p, self.far, -self.sigma),
+            Face::Left => (0, 0),
+            Face::Right => (0, 1),
+            Face::Bottom => (1, 2),
+            Face::Top => (1, 3),
+        };
+        let depth = self.precise_depth(p, self.near, self.sigma);
+        let slope = Dd::new(self.slope[side], self.slope_low[side]);
+        let (product, low) = two_prod(slope.hi, depth.hi);
+        let low = low + (slope.hi * depth.lo + slope.lo * depth.hi);
+        let across = self.precise_frame(axis, p);
+        let (sum, rest) = two_diff(across.hi, self.at_near[side]);
+        let (value, more) = two_diff(sum, product);
+        let (hi, lo) = two_sum(value, more + ((rest + across.lo) - low));
+        if side % 2 == 0 {
+            Dd::new(hi, lo)
+        } else {
+            Dd::new(-hi, -lo)
+        }
+    }
+
+    /// `sign * (z - bound)`.
+    #[inline(always)]
+    fn precise_depth(&self, p: Vec3<f64>, bound: f64, sign: f64) -> Dd {
+        let z = self.precise_frame(2, p);
+        let (sum, rest) = two_diff(z.hi, bound);
+        let (hi, lo) = two_sum(sum, rest + z.lo);
+        Dd::new(sign * hi, sign * lo)
+    }
+
+    /// A frame coordinate.
+    #[inline(always)]
+    fn precise_frame(&self, k: usize, p: Vec3<f64>) -> Dd {
+        if self.identity {
+            return Dd::new(p[k], 0.0);
+        }
+        let term = |j: usize| Dd::difference(p[j], self.origin[j]).mul_f64(self.axes[k][j]);
+        term(0).add(term(1)).add(term(2))
+    }
+
+    /// Prepares a valid frustum's constants.
+    pub(crate) fn new(pose: &Pose, shape: &Shape) -> Self {
+        let near = shape.near();
+        let far = shape.far();
+        let sigma = shape.direction().sign();
+        let slopes = slopes(shape);
+        let identity = pose.is_identity();
+        let mut filter = Filter {
+            identity,
+            infinite: far.is_none(),
+            sigma,
+            near: near.z,
+            far: far.map_or(near.z, |far| far.z),
+            at_near: near.rect.to_array(),
+            slope: slopes.map(|s| s.hi),
+            slope_low: slopes.map(|s| s.lo),
+            origin: pose.origin,
+            axes: pose.axes,
+            side: (0.0, 0.0),
+            depth: (0.0, 0.0),
+            limit: 0.0,
+            lattice: None,
+            expansions: fits_expansions(pose, shape),
+        };
+        filter.prepare_thresholds();
+        filter.lattice = filter.find_lattice(shape);
+        filter
+    }
+
+    /// The largest magnitude in each axis.
+    fn axis_sizes(&self) -> [f64; 3] {
+        self.axes.map(|a| a.x.abs().max(a.y.abs()).max(a.z.abs()))
+    }
+
+    fn prepare_thresholds(&mut self) {
+        if !self.in_range() {
+            return;
+        }
+        let [x, y, z] = self.axis_sizes();
+        let mut constant = 0.0_f64;
+        let mut factor = 0.0_f64;
+        for i in 0..4 {
+            let slope = self.slope[i].abs();
+            constant = constant.max(self.at_near[i].abs() + slope * self.near.abs());
+            factor = factor.max(if i < 2 { x } else { y } + slope * z);
+        }
+        self.side = (RELATIVE * constant + FLOOR, RELATIVE * factor);
+        let reach = self.near.abs().max(self.far.abs());
+        self.depth = (RELATIVE * reach + FLOOR, RELATIVE * z);
+        // Below it every value stays under 2^481, so that products of two and
+        // the splitting of any operand cannot overflow.
+        self.limit = exp2(480) / factor.max(z).max(1.0);
+    }
+
+    /// Whether every constant is in the range that the error analysis assumes:
+    /// zero, or of a magnitude at which products neither overflow nor lose
+    /// more than `FLOOR` covers.
+    fn in_range(&self) -> bool {
+        let within =
+            |v: f64, low: i32, high: i32| v == 0.0 || (v.abs() > exp2(low) && v.abs() < exp2(high));
+        let depth = self.far - self.near;
+        within(self.near, -400, 400)
+            && within(self.far, -400, 400)
+            && within(depth, -400, 400)
+            && self.at_near.iter().all(|&v| within(v, -400, 400))
+            && self.slope.iter().all(|&v| within(v, -200, 200))
+            && self.origin.to_array().iter().all(|&v| v.abs() < exp2(400))
+            && self
+                .axes
+                .iter()
+                .flat_map(|a| a.to_array())
+                .all(|v| within(v, -200, 200))
+    }
+
+    /// The finest unit such that points on its multiples, as far out as a few
+    /// times the frustum's size, have values of at most 26 bits: then the
+    /// values and the products of two are exact.
+    fn find_lattice(&self, shape: &Shape) -> Option<Lattice> {
+        if self.limit == 0.0 || !slopes_exact(shape, &self.slope, &self.slope_low) {
+            return None;
+        }
+        let sizes = self.axis_sizes();
+        let slope_size = self.slope.iter().fold(0.0_f64, |m, s| m.max(s.abs()));
+        let factor = sizes[0].max(sizes[1]) + (slope_size + 1.0) * sizes[2];
+        let fixed = |v: &f64| v.abs();
+        let constants = self.at_near.iter().chain([&self.near, &self.far]);
+        let largest = constants.clone().map(fixed).fold(0.0, f64::max);
+        let smallest_axis = sizes.into_iter().fold(f64::INFINITY, f64::min);
+        let reach = (largest / smallest_axis)
+            .max(self.origin.to_array().iter().map(fixed).fold(0.0, f64::max));
+        let limit = exp2((8.0 * reach).log2().ceil() as i32);
+        let size = factor * limit + 2.0 * largest * (1.0 + slope_size);
+        let top = size.log2().ceil() as i32;
+
+        let least = |v: &mut dyn Iterator<Item = f64>| v.filter_map(lowest_bit).min();
+        let axes = least(&mut self.axes.iter().flat_map(|a| a.to_array()))?;
+        let constants = least(&mut constants.copied()).unwrap_or(0);
+        let origin = least(&mut self.origin.to_array().into_iter());
+        let slopes = least(&mut self.slope.into_iter()).map_or(0, |s| s.min(0));
+        // lowest bit of a value = min(unit + axes, constants) + slopes >= top - 26
+        let unit = top - 26 - slopes - axes;
+        let coarsest = constants.min(origin.map_or(constants, |o| o + axes));
+        if coarsest + slopes < top - 26 || unit > 400 || unit < -500 {
+            return None;
+        }
+        Some(Lattice {
+            round: 1.5 * exp2(52 + unit),
+            limit: limit.min(exp2(51 + unit)),
+        })
+    }
+}
+
+/// Whether every number is in the range in which expansions are exact.
+fn fits_expansions(pose: &Pose, shape: &Shape) -> bool {
+    let near = shape.near();
+    let other = match shape {
+        Shape::Finite { far, .. } => far.rect,
+        Shape::Infinite { slopes, .. } => *slopes,
+    };
+    let far = shape.far().map_or(0.0, |far| far.z);
+    let axes = pose.axes.iter().flat_map(|a| a.to_array());
+    [near.z, far]
+        .into_iter()
+        .chain(pose.origin.to_array())
+        .chain(near.rect.to_array())
+        .chain(other.to_array())
+        .chain(axes)
+        .all(in_safe_range)
+}
+
+/// The four slopes per unit of depth, to 106 bits where nothing underflows.
+fn slopes(shape: &Shape) -> [Dd; 4] {
+    match shape {
+        Shape::Finite { near, far } => {
+            let depth = Dd::difference(far.z, near.z).abs();
+            let (n, f) = (near.rect.to_array(), far.rect.to_array());
+            std::array::from_fn(|i| match Dd::difference(f[i], n[i]) {
+                rise if rise.hi == 0.0 => Dd::new(0.0, 0.0),
+                rise => rise.div(depth),
+            })
+        }
+        Shape::Infinite { slopes, .. } => slopes.to_array().map(|s| Dd::new(s, 0.0)),
+    }
+}
+
+/// Whether the rounded slopes are the slopes.
+fn slopes_exact(shape: &Shape, slope: &[f64; 4], low: &[f64; 4]) -> bool {
+    let Shape::Finite { near, far } = shape else {
+        return true;
+    };
+    let (depth, rest) = two_diff(far.z, near.z);
+    let (n, f) = (near.rect.to_array(), far.rect.to_array());
+    rest == 0.0
+        && (0..4).all(|i| {
+            let (rise, more) = two_diff(f[i], n[i]);
+            low[i] == 0.0 && more == 0.0 && two_prod(slope[i], depth.abs()) == (rise, 0.0)
+        })
+}
+
+impl Frustum {
+    pub(crate) fn filter(&self) -> &Filter {
+        &self.filter
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::exact::Number;
+    use crate::exact::dyadic::Dyadic;
+    use crate::frustum::boundary::boundary;
+    use crate::math::Rect;
+    use crate::{Direction, EndRect, FrustumError};
+
+    fn perspective() -> Result<Frustum, FrustumError> {
+        Frustum::new(
+            Pose::IDENTITY,
+            Shape::Finite {
+                near: EndRect::new(2.0, -1.0, 1.0, -1.0, 1.0),
+                far: EndRect::new(10.0, -5.0, 5.0, -5.0, 5.0),
+            },
+        )
+    }
+
+    #[test]
+    fn a_dyadic_frustum_has_a_lattice() -> Result<(), FrustumError> {
+        let frustum = perspective()?;
+        let filter = frustum.filter();
+        let on = |v: [f64; 3]| filter.is_lattice(v.into(), filter.values(v.into()).size);
+        assert!(on([0.5, 0.25, 3.125]) && on([40.0, -13.0, 0.0]));
+        assert!(!on([0.1, 0.25, 3.125]) && !on([1e9, 0.0, 0.0]) && !on([f64::NAN, 0.0, 0.0]));
+        Ok(())
+    }
+
+    #[test]
+    fn values_are_within_the_threshold() -> Result<(), FrustumError> {
+        let frusta = [
+            perspective()?,
+            Frustum::new(
+                Pose::new(
+                    Vec3::new(1e6, 0.1, -3.3),
+                    [
+                        Vec3::new(0.36, 0.48, -0.8),
+                        Vec3::new(-0.8, 0.6, 0.0),
+                        Vec3::new(0.48, 0.64, 0.6),
+                    ],
+                ),
+                Shape::Infinite {
+                    near: EndRect::new(-0.1, -0.07, 0.03, -0.05, 0.05),
+                    slopes: Rect::new(-0.7, 0.3, -0.5, 0.5),
+                    direction: Direction::MinusZ,
+                },
+            )?,
+        ];
+        let mut state = 1_u64;
+        let mut next = || {
+            state = state
+                .wrapping_mul(6364136223846793005)
+                .wrapping_add(1442695040888963407);
+            (state >> 11) as f64 * exp2(-53) * 20.0 - 10.0
+        };
+        for frustum in &frusta {
+            let filter = frustum.filter();
+            for _ in 0..2000 {
+                let p = frustum.pose().origin + Vec3::new(next(), next(), next());
+                let values = filter.values(p);
+                for face in Face::ALL {
+                    let exact: Dyadic = boundary(frustum, face, p).expect("integers have room");
+                    let t = filter.threshold(face, values.size);
+                    let g = values.g[face as usize];
+                    if g.abs() > t {
+                        let sign = g.partial_cmp(&0.0).unwrap_or(Ordering::Equal);
+                        assert_eq!(exact.sign(), sign, "{face} at {p}");
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+}
