@@ -4,6 +4,8 @@ pub mod clip;
 mod exact;
 pub mod frustum;
 pub mod math;
+#[cfg(feature = "oracle")]
+pub mod oracle;
 
 pub use clip::{
     Accuracy, Arithmetic, Class, Part, PartEnd, SegmentClip, SegmentClipper, StageCounts,

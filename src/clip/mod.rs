@@ -30,3 +30,46 @@ pub trait SegmentClipper<T: Real> {
         segment: &Segment<T>,
     ) -> Result<SegmentClip<T>, NonFinite>;
 }
+
+impl Frustum {
+    /// The part of a segment that is in the frustum: class and face sets exact,
+    /// points to [`Accuracy::Fast`].
+    ///
+    /// # Errors
+    /// A coordinate of the segment is infinite or NaN.
+    #[inline]
+    pub fn clip_segment<T: Real>(
+        &self,
+        segment: impl Into<Segment<T>>,
+    ) -> Result<SegmentClip<T>, NonFinite> {
+        self.clip_segment_with(segment, Accuracy::Fast)
+    }
+
+    /// As [`Frustum::clip_segment`], with a choice of how exact the points are.
+    ///
+    /// # Errors
+    /// A coordinate of the segment is infinite or NaN.
+    #[inline]
+    pub fn clip_segment_with<T: Real>(
+        &self,
+        segment: impl Into<Segment<T>>,
+        accuracy: Accuracy,
+    ) -> Result<SegmentClip<T>, NonFinite> {
+        self.clip_segment_counted(segment, accuracy, &mut StageCounts::default())
+    }
+
+    /// As [`Frustum::clip_segment_with`], and adds to `counts` which stages of
+    /// the predicates were needed.
+    ///
+    /// # Errors
+    /// A coordinate of the segment is infinite or NaN.
+    #[inline]
+    pub fn clip_segment_counted<T: Real>(
+        &self,
+        segment: impl Into<Segment<T>>,
+        accuracy: Accuracy,
+        counts: &mut StageCounts,
+    ) -> Result<SegmentClip<T>, NonFinite> {
+        exact::vw::clip(self, &segment.into(), accuracy, counts)
+    }
+}

@@ -15,7 +15,9 @@
 use super::SegmentClipper;
 use super::plain::{self, Found, max, min};
 use super::result::SegmentClip;
-use crate::frustum::{FaceSet, Form, Frustum, PlainFrustum};
+use crate::frustum::{
+    FaceSet, Form, Frustum, General, Layout, Orthographic, PlainFrustum, Symmetric,
+};
 use crate::math::{NonFinite, Real, Segment};
 
 /// Clipping by projection on two planes.
@@ -47,42 +49,6 @@ impl<T: Real> SegmentClipper<T> for VwProjection {
     }
 }
 
-type Two<T> = [T; 2];
-
-trait Layout {
-    const FAR: bool = true;
-    /// Values of the sides `i` and `i + 1`.
-    fn sides<T: Real>(f: &PlainFrustum<T>, i: usize, w: T, c: T) -> Two<T>;
-}
-
-struct Symmetric<const FAR: bool>;
-struct General<const FAR: bool>;
-struct Orthographic;
-
-impl<const FAR: bool> Layout for Symmetric<FAR> {
-    const FAR: bool = FAR;
-    #[inline(always)]
-    fn sides<T: Real>(f: &PlainFrustum<T>, i: usize, w: T, c: T) -> Two<T> {
-        let u = f.bounds[i + 1] + f.slopes[i + 1] * w;
-        [u + c, u - c]
-    }
-}
-impl<const FAR: bool> Layout for General<FAR> {
-    const FAR: bool = FAR;
-    #[inline(always)]
-    fn sides<T: Real>(f: &PlainFrustum<T>, i: usize, w: T, c: T) -> Two<T> {
-        let low = f.bounds[i] + f.slopes[i] * w;
-        let high = f.bounds[i + 1] + f.slopes[i + 1] * w;
-        [c - low, high - c]
-    }
-}
-impl Layout for Orthographic {
-    #[inline(always)]
-    fn sides<T: Real>(f: &PlainFrustum<T>, i: usize, _: T, c: T) -> Two<T> {
-        [c - f.bounds[i], f.bounds[i + 1] - c]
-    }
-}
-
 #[inline(always)]
 fn clip<T: Real>(f: &PlainFrustum<T>, segment: &Segment<T>) -> SegmentClip<T> {
     match f.form {
@@ -106,14 +72,14 @@ fn clip_in<T: Real, L: Layout>(f: &PlainFrustum<T>, segment: &Segment<T>) -> Seg
     } else {
         (T::ONE, T::ONE)
     };
-    let [lp, rp] = L::sides(f, 0, wp, p.x);
-    let [lq, rq] = L::sides(f, 0, wq, q.x);
+    let [lp, rp] = L::sides(&f.bounds, &f.slopes, 0, wp, p.x);
+    let [lq, rq] = L::sides(&f.bounds, &f.slopes, 0, wq, q.x);
     let m = min(min(max(wp, wq), max(fp, fq)), min(max(lp, lq), max(rp, rq)));
     if m < zero {
         return SegmentClip::OUTSIDE;
     }
-    let [bp, tp] = L::sides(f, 2, wp, p.y);
-    let [bq, tq] = L::sides(f, 2, wq, q.y);
+    let [bp, tp] = L::sides(&f.bounds, &f.slopes, 2, wp, p.y);
+    let [bq, tq] = L::sides(&f.bounds, &f.slopes, 2, wq, q.y);
     if min(max(bp, bq), max(tp, tq)) < zero {
         return SegmentClip::OUTSIDE;
     }

@@ -31,7 +31,7 @@
 //! T is evaluated as `const + factor * S`, its rounding covered by that factor.
 //! The comparison is written with `>`, so that NaN and infinity fail it.
 
-use super::{Face, Frustum, Shape};
+use super::{Face, Form, Frustum, General, Layout, Shape};
 use crate::exact::double_double::Dd;
 use crate::exact::expansion::in_safe_range;
 use crate::exact::float::{exp2, lowest_bit, two_diff, two_prod, two_sum};
@@ -50,7 +50,7 @@ pub(crate) const NO_FAR: f64 = 1e300;
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Filter {
     pub(crate) identity: bool,
-    pub(crate) infinite: bool,
+    pub(crate) form: Form,
     /// The direction of depth, 1 or -1.
     sigma: f64,
     near: f64,
@@ -95,23 +95,29 @@ impl Filter {
     /// bound is for.
     #[inline(always)]
     pub(crate) fn values(&self, p: Vec3<f64>) -> Values {
+        if matches!(self.form, Form::Infinite | Form::InfiniteSymmetric) {
+            self.values_in::<General<false>>(p)
+        } else {
+            self.values_in::<General<true>>(p)
+        }
+    }
+
+    /// The same bits, with what the layout can leave out left out.
+    #[inline(always)]
+    pub(crate) fn values_in<L: Layout>(&self, p: Vec3<f64>) -> Values {
         let (q, size) = self.frame(p);
         let depth = self.sigma * (q.z - self.near);
-        let far = if self.infinite {
-            NO_FAR
-        } else {
+        let far = if L::FAR {
             self.sigma * (self.far - q.z)
+        } else {
+            NO_FAR
         };
-        let bound = |i: usize| self.at_near[i] + self.slope[i] * depth;
-        let g = [
-            depth,
-            far,
-            q.x - bound(0),
-            bound(1) - q.x,
-            q.y - bound(2),
-            bound(3) - q.y,
-        ];
-        Values { g, size }
+        let [left, right] = L::sides(&self.at_near, &self.slope, 0, depth, q.x);
+        let [bottom, top] = L::sides(&self.at_near, &self.slope, 2, depth, q.y);
+        Values {
+            g: [depth, far, left, right, bottom, top],
+            size,
+        }
     }
 
     /// Rounded frame coordinates, and S.
@@ -188,27 +194,27 @@ impl Filter {
     /// A boundary value in double-double, error at most 60 u^2 scale.
     #[inline(always)]
     pub(crate) fn precise(&self, face: Face, p: Vec3<f64>) -> Dd {
-        let (axis, side) = match face {
-            Face::Near => return self.precise_depth(p, self.near, self.sigma),
-            Face::Far => return self.precise_depth(p, self.far, -self.sigma),
-            Face::Left => (0, 0),
-            Face::Right => (0, 1),
-            Face::Bottom => (1, 2),
-            Face::Top => (1, 3),
-        };
+        match face {
+            Face::Near => self.precise_depth(p, self.near, self.sigma),
+            Face::Far => self.precise_depth(p, self.far, -self.sigma),
+            _ => self.precise_side(face as usize - 2, p),
+        }
+    }
+
+    /// Left, right, bottom, top by number: looked up, not branched on.
+    #[inline(always)]
+    fn precise_side(&self, side: usize, p: Vec3<f64>) -> Dd {
+        let side = side & 3;
         let depth = self.precise_depth(p, self.near, self.sigma);
         let slope = Dd::new(self.slope[side], self.slope_low[side]);
         let (product, low) = two_prod(slope.hi, depth.hi);
         let low = low + (slope.hi * depth.lo + slope.lo * depth.hi);
-        let across = self.precise_frame(axis, p);
+        let across = self.precise_frame(side / 2, p);
         let (sum, rest) = two_diff(across.hi, self.at_near[side]);
         let (value, more) = two_diff(sum, product);
         let (hi, lo) = two_sum(value, more + ((rest + across.lo) - low));
-        if side % 2 == 0 {
-            Dd::new(hi, lo)
-        } else {
-            Dd::new(-hi, -lo)
-        }
+        let sign = [1.0, -1.0][side % 2];
+        Dd::new(sign * hi, sign * lo)
     }
 
     /// `sign * (z - bound)`.
@@ -224,7 +230,7 @@ impl Filter {
     #[inline(always)]
     fn precise_frame(&self, k: usize, p: Vec3<f64>) -> Dd {
         if self.identity {
-            return Dd::new(p[k], 0.0);
+            return Dd::new(p.to_array()[k], 0.0);
         }
         let term = |j: usize| Dd::difference(p[j], self.origin[j]).mul_f64(self.axes[k][j]);
         term(0).add(term(1)).add(term(2))
@@ -239,7 +245,7 @@ impl Filter {
         let identity = pose.is_identity();
         let mut filter = Filter {
             identity,
-            infinite: far.is_none(),
+            form: Form::of(shape),
             sigma,
             near: near.z,
             far: far.map_or(near.z, |far| far.z),

@@ -13,7 +13,7 @@ mod shape;
 pub use camera::{Camera, Projection};
 pub use error::FrustumError;
 pub use face::{Face, FaceSet};
-pub(crate) use plain::{Form, PlainFrustum};
+pub(crate) use plain::{Form, General, Layout, Orthographic, PlainFrustum, Symmetric};
 pub use shape::{Direction, EndRect, Shape};
 
 use crate::math::{Pose, Real, Vec3};

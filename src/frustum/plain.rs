@@ -38,7 +38,7 @@ pub(crate) enum Form {
 
 impl Form {
     /// The cheapest form that fits.
-    fn of(shape: &Shape) -> Self {
+    pub(super) fn of(shape: &Shape) -> Self {
         match shape {
             Shape::Finite { near, far } if near.rect == far.rect => Form::Orthographic,
             Shape::Finite { near, far } if near.rect.is_symmetric() && far.rect.is_symmetric() => {
@@ -238,5 +238,48 @@ impl PerReal for PlainPair {
     #[inline(always)]
     fn double(&self) -> &PlainFrustum<f64> {
         &self.double
+    }
+}
+
+/// How the values of two opposite sides are computed: each form of frustum
+/// leaves out what it does not need, and gives the same bits as the general
+/// one.
+pub(crate) trait Layout {
+    /// Whether there is a far face.
+    const FAR: bool = true;
+    /// The values of sides `i` and `i + 1` at depth `w`, coordinate `c`.
+    fn sides<T: Real>(bounds: &[T; 4], slopes: &[T; 4], i: usize, w: T, c: T) -> [T; 2];
+}
+
+/// One half-width for two sides.
+pub(crate) struct Symmetric<const FAR: bool>;
+/// Nothing to save.
+pub(crate) struct General<const FAR: bool>;
+/// No slopes.
+pub(crate) struct Orthographic;
+
+impl<const FAR: bool> Layout for Symmetric<FAR> {
+    const FAR: bool = FAR;
+    #[inline(always)]
+    fn sides<T: Real>(bounds: &[T; 4], slopes: &[T; 4], i: usize, w: T, c: T) -> [T; 2] {
+        let u = bounds[i + 1] + slopes[i + 1] * w;
+        [u + c, u - c]
+    }
+}
+
+impl<const FAR: bool> Layout for General<FAR> {
+    const FAR: bool = FAR;
+    #[inline(always)]
+    fn sides<T: Real>(bounds: &[T; 4], slopes: &[T; 4], i: usize, w: T, c: T) -> [T; 2] {
+        let low = bounds[i] + slopes[i] * w;
+        let high = bounds[i + 1] + slopes[i + 1] * w;
+        [c - low, high - c]
+    }
+}
+
+impl Layout for Orthographic {
+    #[inline(always)]
+    fn sides<T: Real>(bounds: &[T; 4], _: &[T; 4], i: usize, _: T, c: T) -> [T; 2] {
+        [c - bounds[i], bounds[i + 1] - c]
     }
 }

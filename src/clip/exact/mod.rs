@@ -4,6 +4,7 @@
 //! staged    the predicates, in stages: filter, lattice, expansions, integers
 //! decide    a span and the predicates give class, sets and where the ends are
 //! points    the ends' parameters and coordinates, to the accuracy asked for
+//! vw        V/W with certificates instead, where rounded values prove enough
 //! inward    the representable point next to an end that is in the frustum
 //! ```
 
@@ -11,14 +12,18 @@ mod decide;
 mod inward;
 mod points;
 mod staged;
+pub(crate) mod vw;
 
-pub(crate) use decide::Decision;
 pub(crate) use staged::Staged;
 
-use super::predicates::Span;
+use decide::Decision;
+use points::build;
+
+use super::predicates::{Predicates, Span};
 use super::{Accuracy, SegmentClip, StageCounts};
 use crate::frustum::Frustum;
-use crate::math::{NonFinite, Real, Segment};
+use crate::math::{End, NonFinite, Real, Segment};
+use std::cmp::Ordering;
 
 /// Clips with an algorithm's control flow and exact predicates.
 pub(crate) fn clip<T: Real>(
@@ -30,13 +35,26 @@ pub(crate) fn clip<T: Real>(
 ) -> Result<SegmentClip<T>, NonFinite> {
     segment.check_finite()?;
     let mut staged = Staged::new(frustum, segment.to_f64());
-    let result = match span(&mut staged) {
+    let decision = if segment.start == segment.end {
+        point(&mut staged)
+    } else {
+        span(&mut staged).map(|span| Decision::new(&mut staged, span))
+    };
+    let result = match decision {
         None => SegmentClip::OUTSIDE,
-        Some(span) => {
-            let decision = Decision::new(&mut staged, span);
-            points::build(&mut staged, segment, &decision, accuracy)
-        }
+        Some(decision) => build(&mut staged, segment, &decision, accuracy),
     };
     staged.add_to(counts);
     Ok(result)
+}
+
+/// A segment of zero length is its point: every algorithm's control flow
+/// assumes that a line is crossed at most once.
+fn point(staged: &mut Staged<'_>) -> Option<Decision> {
+    let outside = |staged: &mut Staged<'_>, face| staged.side(face, End::Start) == Ordering::Less;
+    let faces = staged.faces();
+    if faces.iter().any(|&face| outside(staged, face)) {
+        return None;
+    }
+    Some(Decision::point(staged))
 }
