@@ -6,6 +6,7 @@ pub mod frustum;
 pub mod math;
 #[cfg(feature = "oracle")]
 pub mod oracle;
+pub mod samples;
 
 pub use clip::{
     Accuracy, Arithmetic, Class, Part, PartEnd, SegmentClip, SegmentClipper, StageCounts,

@@ -42,7 +42,7 @@ use std::cmp::Ordering;
 const RELATIVE: f64 = 1.4210854715202004e-14;
 /// 2^-500: far above what underflow can do inside [`in_range`], far below
 /// every scale.
-const FLOOR: f64 = 3.0549363634996047e-151;
+pub(crate) const FLOOR: f64 = 3.0549363634996047e-151;
 /// Stands for the far value of an infinite frustum: never crossed.
 pub(crate) const NO_FAR: f64 = 1e300;
 

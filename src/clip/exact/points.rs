@@ -35,10 +35,16 @@ pub(crate) fn build<T: Real>(
     decision: &Decision,
     accuracy: Accuracy,
 ) -> SegmentClip<T> {
-    let mut entry = end(staged, segment, decision, 0, accuracy);
+    let entry = end(staged, segment, decision, 0, accuracy);
     let mut exit = if decision.at[0] == decision.at[1] {
+        let clipped = decision.clipped[1];
         PartEnd {
-            clipped: decision.clipped[1],
+            clipped,
+            inward: if accuracy == Accuracy::Inward {
+                entry.inward
+            } else {
+                !clipped
+            },
             ..entry
         }
     } else {
@@ -48,9 +54,6 @@ pub(crate) fn build<T: Real>(
         // Both are within the bound of the exact parameters, which are in
         // order; so is the greater of the two.
         exit.t = entry.t;
-    }
-    if accuracy == Accuracy::Inward || !entry.clipped {
-        entry.inward |= !entry.clipped;
     }
     SegmentClip {
         class: decision.class,
@@ -76,12 +79,13 @@ fn end<T: Real>(
         At::End(End::End) => (T::ONE, segment.end, true),
         At::Crossing(face) => crossing(staged, face, faces, accuracy),
     };
+    let clipped = decision.clipped[which];
     PartEnd {
         t,
         point,
-        clipped: decision.clipped[which],
+        clipped,
         faces,
-        inward,
+        inward: inward && (!clipped || accuracy == Accuracy::Inward),
     }
 }
 
@@ -104,7 +108,7 @@ fn crossing<T: Real>(
         }
         Accuracy::Inward => {
             let (t, point) = nearest(staged, face);
-            let (point, inward) = inward::search(staged, face, point);
+            let (point, inward) = inward::search(staged, face, faces, point);
             (t, point, inward)
         }
     }

@@ -25,7 +25,7 @@ use super::points;
 use super::staged::Staged;
 use crate::clip::predicates::{Predicates, Span};
 use crate::clip::{Accuracy, Class, Part, PartEnd, SegmentClip, StageCounts};
-use crate::frustum::filter::{Filter, Values};
+use crate::frustum::filter::{FLOOR, Filter, Values};
 use crate::frustum::{Face, FaceSet, Form, Frustum, General, Layout, Orthographic, Symmetric};
 use crate::math::{End, NonFinite, Real, Segment};
 use std::cmp::Ordering;
@@ -92,8 +92,11 @@ fn certify(filter: &Filter, p: &Values, q: &Values) -> Certificate {
     }
     // Thresholds grow with the size, so these serve both ends.
     let side = filter.side_threshold(size);
+    // With the identity pose near and far values are differences of two
+    // doubles: relative error u, and all that counts is that their reciprocals
+    // are finite.
     let depth = if filter.identity {
-        0.0
+        FLOOR
     } else {
         filter.depth_threshold(size)
     };
