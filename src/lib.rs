@@ -3,6 +3,7 @@
 pub mod clip;
 mod exact;
 pub mod frustum;
+mod interop;
 pub mod math;
 #[cfg(feature = "oracle")]
 pub mod oracle;
@@ -13,6 +14,8 @@ pub use clip::{
     VwProjection,
 };
 pub use frustum::{
-    Camera, Direction, EndRect, Face, FaceSet, Frustum, FrustumError, Projection, Shape,
+    Camera, ClipSpace, ClipY, Corners, DepthRange, Deviation, Direction, EndRect, Face, FaceSet,
+    FarCorners, Frustum, FrustumError, MatrixFrustum, MatrixLayout, Plane, Projection, Shape,
+    SixPoints, Trapezoid, TrapezoidEnd, ViewProjection,
 };
-pub use math::{Axis, End, NonFinite, Pose, Real, Rect, Segment, Vec3};
+pub use math::{Axis, End, Interval, NonFinite, Pose, Real, Rect, Segment, Vec3};

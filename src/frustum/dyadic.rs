@@ -57,7 +57,7 @@ impl Dyadic {
     }
 
     /// The nearest double to `self * 2^shift`.
-    fn scaled(&self, shift: i64) -> f64 {
+    pub(super) fn scaled(&self, shift: i64) -> f64 {
         let (sign, magnitude) = self.integer.clone().into_parts();
         signed(sign, round(&magnitude, self.exponent + shift, false))
     }

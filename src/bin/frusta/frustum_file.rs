@@ -8,6 +8,7 @@
 use crate::failure::{Failure, quote};
 use crate::number;
 use crate::view::{Lens, Parameters};
+use frusta::frustum::{ClipSpace, ClipY, DepthRange, MatrixLayout, ViewProjection};
 use frusta::{Direction, EndRect, Frustum, Pose, Rect, Shape, Vec3};
 use serde_json::{Map, Value};
 use std::path::Path;
@@ -29,7 +30,9 @@ fn parse(value: &Value) -> Result<Frustum, String> {
         return Err(format!("found {}; {EXPECTED}", kind(value)));
     };
     let object = Object { path: "", map };
-    if map.contains_key("eye") || map.contains_key("target") {
+    if map.contains_key("matrix") {
+        matrix(&object)
+    } else if map.contains_key("eye") || map.contains_key("target") {
         camera(&object)
     } else if map.contains_key("axes") || map.contains_key("origin") {
         rects(&object)
@@ -100,6 +103,39 @@ fn camera(object: &Object<'_>) -> Result<Frustum, String> {
     }
     .frustum()
     .map_err(|e| e.to_string())
+}
+
+fn matrix(object: &Object<'_>) -> Result<Frustum, String> {
+    object.only(&["matrix", "layout", "depth", "reversed", "y", "precision"])?;
+    let numbers = object.numbers::<16>("matrix")?;
+    let entries = std::array::from_fn(|i| std::array::from_fn(|j| numbers[4 * i + j]));
+    let layout = match object.choice("layout", &["column-major", "row-major"], false)? {
+        0 => MatrixLayout::ColumnMajorColumnVectors,
+        _ => MatrixLayout::RowMajorColumnVectors,
+    };
+    let clip = ClipSpace {
+        depth: match object.choice("depth", &["0..1", "-1..1"], false)? {
+            0 => DepthRange::ZeroToOne,
+            _ => DepthRange::MinusOneToOne,
+        },
+        reversed: match object.map.get("reversed") {
+            None => false,
+            Some(Value::Bool(reversed)) => *reversed,
+            Some(other) => return Err(wrong("reversed", other, "true or false")),
+        },
+        y: match object.choice("y", &["up", "down"], true)? {
+            0 => ClipY::Up,
+            _ => ClipY::Down,
+        },
+    };
+    // The precision tells how much of the entries is rounding.
+    let found = match object.choice("precision", &["f64", "f32"], true)? {
+        0 => ViewProjection::new(entries, layout).frustum(clip),
+        _ => {
+            ViewProjection::new(entries.map(|row| row.map(|e: f64| e as f32)), layout).frustum(clip)
+        }
+    };
+    found.map(|f| f.frustum).map_err(|e| format!("matrix: {e}"))
 }
 
 /// An object and where in the file it is.
@@ -185,6 +221,17 @@ impl<'a> Object<'a> {
             self.number("bottom")?,
             self.number("top")?,
         ))
+    }
+
+    /// One of some texts; the first where the key is missing and `optional`.
+    fn choice(&self, key: &str, choices: &[&str], optional: bool) -> Result<usize, String> {
+        if optional && !self.map.contains_key(key) {
+            return Ok(0);
+        }
+        let expected = format!("\"{}\"", choices.join("\" or \""));
+        let value = self.get(key, &expected)?;
+        let found = choices.iter().position(|&c| value.as_str() == Some(c));
+        found.ok_or_else(|| wrong(&self.key(key), value, &expected))
     }
 }
 

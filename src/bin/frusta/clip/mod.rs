@@ -174,6 +174,9 @@ Frustum files (--frustum); any number may be a text with a hexadecimal float
    \"far\": no far face; the sides' bounds change by the slopes for each unit of depth
   {\"eye\":[0,0,5], \"target\":[0,0,0], \"up\":[0,1,0], \"fovy_deg\":45 or \"ortho_height\":2,
    \"aspect\":1.5, \"near\":0.1, \"far\":100 or \"inf\"}
+  {\"matrix\":[16 numbers], \"layout\":\"column-major\" or \"row-major\", \"depth\":\"0..1\" or \"-1..1\",
+   \"reversed\":false, \"y\":\"up\" or \"down\", \"precision\":\"f64\" or \"f32\"}: view and projection,
+   for column vectors; the last three keys may be left out
 
 Examples
   frusta clip part.glb
