@@ -79,6 +79,9 @@ pub(crate) fn run(args: &ClipArgs) -> Result<(), Failure> {
 
 fn run_as<T: Scalar>(args: &ClipArgs) -> Result<(), Failure> {
     let start = Instant::now();
+    if args.arithmetic == Arithmetic::Plain && args.accuracy.is_some() {
+        return Err(Failure::new("--accuracy is for --arithmetic exact"));
+    }
     let format = Format::of(&args.file)?;
     let kind = Kind::of(args.output.as_deref())?;
     let source = Source::open(&args.file, format, args.edges)?;

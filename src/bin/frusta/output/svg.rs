@@ -315,11 +315,11 @@ fn draw_caption(svg: &mut String, title: &str, classes: &[u64; 5], bottom: f64) 
         bottom + 30.0,
         bottom + 54.0
     );
-    for (class, count) in Class::ALL.iter().zip(classes) {
-        let colour = COLOURS[*class as usize];
+    for (i, (class, count)) in Class::ALL.iter().zip(classes).enumerate() {
+        let (colour, gap) = (COLOURS[i], if i == 0 { 0 } else { 18 });
         let _ = write!(
             svg,
-            "<tspan fill=\"{colour}\" font-weight=\"bold\">{class}</tspan> {count}   "
+            "<tspan dx=\"{gap}\" fill=\"{colour}\" font-weight=\"bold\">{class}</tspan> {count}"
         );
     }
     svg.push_str("</text>\n</g>\n");
