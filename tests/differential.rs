@@ -222,8 +222,7 @@ fn check<T: Real>(frustum: &Frustum, segment: &Segment<T>) -> Result<(), TestCas
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 20_000, cases: 20_000,
-        max_global_rejects: 100_000, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: 20_000, max_global_rejects: 100_000, ..ProptestConfig::default() })]
 
     #[test]
     fn singular_segments_agree_with_the_oracle(

@@ -10,6 +10,7 @@ pub(crate) mod filter;
 mod independent;
 mod matrix;
 mod plain;
+mod precise;
 mod shape;
 mod six_points;
 mod trapezoid;
