@@ -1,12 +1,20 @@
 //! Clipping segments: one file an algorithm, behind one trait.
 
+mod cohen_sutherland;
+mod cyrus_beck;
 mod exact;
+mod liang_barsky;
 mod plain;
 mod predicates;
 mod result;
+mod six_planes;
 mod vw;
 
+pub use cohen_sutherland::CohenSutherland;
+pub use cyrus_beck::CyrusBeck;
+pub use liang_barsky::{LiangBarsky, LiangBarskyVariant};
 pub use result::{Accuracy, Arithmetic, Class, Part, PartEnd, SegmentClip, StageCounts};
+pub use six_planes::SixPlanes;
 pub use vw::VwProjection;
 
 use crate::frustum::Frustum;
