@@ -133,6 +133,8 @@ impl Default for Arithmetic {
 pub struct StageCounts {
     /// Segments that the floating-point filter did not settle.
     pub filter_failures: u64,
+    /// Signs taken from double-double values.
+    pub double_doubles: u64,
     /// Signs and values taken from floating-point expansions.
     pub expansions: u64,
     /// Signs and values taken from big integers.

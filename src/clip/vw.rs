@@ -83,7 +83,8 @@ impl<T: Real> SegmentClipper<T> for VwProjection {
     }
 }
 
-struct Plain;
+/// V/W in plain arithmetic, for a frustum's form.
+pub(super) struct Plain;
 
 impl InFrame for Plain {
     #[inline(always)]

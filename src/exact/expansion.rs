@@ -18,7 +18,7 @@ use super::float::{fast_two_sum, two_diff, two_prod, two_sum};
 use std::cmp::Ordering;
 
 /// The most components an expansion can have.
-pub(crate) const CAPACITY: usize = 24;
+pub(crate) const CAPACITY: usize = 12;
 
 /// Whether a double may enter a polynomial of degree 6: zero, or of magnitude
 /// 2^-125 .. 2^150. Six factors then have no bit below 2^(-6*(125+52)) > 2^-1074

@@ -90,6 +90,12 @@ impl FaceSet {
         FaceSet(self.0 & other.0)
     }
 
+    /// The faces in this set and not in the other.
+    #[inline(always)]
+    pub const fn difference(self, other: Self) -> Self {
+        FaceSet(self.0 & !other.0)
+    }
+
     /// Whether there is no face in it.
     #[inline(always)]
     pub const fn is_empty(self) -> bool {
@@ -107,8 +113,9 @@ impl FaceSet {
     }
 
     /// The first face in the order of [`Face::ALL`].
+    #[inline(always)]
     pub fn first(self) -> Option<Face> {
-        self.iter().next()
+        Face::ALL.get(self.0.trailing_zeros() as usize).copied()
     }
 }
 

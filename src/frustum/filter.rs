@@ -41,6 +41,9 @@ use std::cmp::Ordering;
 
 /// 2^-46.
 const RELATIVE: f64 = 1.4210854715202004e-14;
+/// 2^-53: double-double values, normalised, are within 60 u^2 scale, less than
+/// half of this times the threshold.
+pub(crate) const PRECISE: f64 = 1.1102230246251565e-16;
 /// 2^-500: far above what underflow can do inside [`in_range`], far below
 /// every scale.
 pub(crate) const FLOOR: f64 = 3.0549363634996047e-151;
@@ -182,6 +185,27 @@ impl Filter {
         }
     }
 
+    /// The same by double-double values, for all but the tiniest distances.
+    pub(crate) fn precise_sign(
+        &self,
+        face: Face,
+        p: Vec3<f64>,
+        values: &Values,
+    ) -> Option<Ordering> {
+        if !self.covers(values.size) {
+            return None;
+        }
+        let value = self.precise.value(face as usize, p).hi;
+        let certain = value.abs() > PRECISE * self.threshold(face, values.size);
+        certain.then(|| {
+            if value > 0.0 {
+                Ordering::Greater
+            } else {
+                Ordering::Less
+            }
+        })
+    }
+
     /// Whether all values at this point, and products of two of them, are free
     /// of rounding errors.
     #[inline(always)]
@@ -268,7 +292,7 @@ impl Filter {
     }
 
     /// The finest unit such that points on its multiples, as far out as a few
-    /// times the frustum's size, have values of at most 26 bits: then the
+    /// times the frustum's size, have values of at most 25 bits: then the
     /// values and the products of two are exact.
     fn find_lattice(&self, shape: &Shape, slopes: &[Dd; 4]) -> Option<Lattice> {
         if self.limit == 0.0 || !slopes_exact(shape, slopes) {
@@ -292,10 +316,10 @@ impl Filter {
         let constants = least(&mut constants.copied()).unwrap_or(0);
         let origin = least(&mut self.origin.to_array().into_iter());
         let slopes = least(&mut self.slope.into_iter()).map_or(0, |s| s.min(0));
-        // lowest bit of a value = min(unit + axes, constants) + slopes >= top - 26
-        let unit = top - 26 - slopes - axes;
+        // lowest bit of a value = min(unit + axes, constants) + slopes >= top - 25
+        let unit = top - 25 - slopes - axes;
         let coarsest = constants.min(origin.map_or(constants, |o| o + axes));
-        if coarsest + slopes < top - 26 || unit > 400 || unit < -500 {
+        if coarsest + slopes < top - 25 || unit > 400 || unit < -500 {
             return None;
         }
         Some(Lattice {

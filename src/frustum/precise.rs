@@ -31,6 +31,8 @@ struct Row {
 pub(crate) struct Precise {
     rows: [Row; 6],
     near: f64,
+    /// What turns `c - at - m (z - z_near)` into the boundary value.
+    signs: [f64; 6],
     /// `None` for the identity.
     pose: Option<Pose>,
 }
@@ -65,6 +67,7 @@ impl Precise {
                 side(3),
             ],
             near: near.z,
+            signs: [sigma, -sigma, 1.0, -1.0, 1.0, -1.0],
             pose: (!pose.is_identity()).then_some(*pose),
         }
     }
@@ -96,6 +99,17 @@ impl Precise {
         let (across, more) = two_diff(c, both(|row| row.at));
         let (g, rest) = two_diff(across, product);
         (g, rest + ((more + c_low) - low))
+    }
+
+    /// One face's value with its sign, the high part rounded.
+    pub(crate) fn value(&self, face: usize, p: Vec3<f64>) -> Dd {
+        let (g, rest) = self.values([face; 2], p);
+        let value = Dd::new(g.to_array()[0], rest.to_array()[0]).normal();
+        if self.signs[face] < 0.0 {
+            value.neg()
+        } else {
+            value
+        }
     }
 
     /// The same two values' magnitudes, rounded: relative error below u (1 + 1/2)

@@ -116,7 +116,7 @@ fn crossing<T: Real>(
 }
 
 /// Where on the segment, seen from the end with the smaller boundary value.
-struct Step {
+pub(super) struct Step {
     /// The end, by number.
     from: usize,
     tau: f64,
@@ -125,7 +125,7 @@ struct Step {
 impl Step {
     /// From the magnitudes at start and end.
     #[inline(always)]
-    fn new(a: f64, b: f64, segment: &Segment<f64>) -> Self {
+    pub(super) fn new(a: f64, b: f64, segment: &Segment<f64>) -> Self {
         // A look-up by the result, not a branch on it: it cannot be predicted.
         let mut from = usize::from(b < a);
         if a == b {
@@ -204,7 +204,7 @@ fn fast<T: Real>(staged: &mut Staged<'_>, face: Face, faces: FaceSet) -> (T, Vec
 
 /// Parameter and point of a step.
 #[inline(always)]
-fn place<T: Real>(
+pub(super) fn place<T: Real>(
     filter: &Filter,
     segment: &Segment<f64>,
     Step { from, tau }: Step,
@@ -256,10 +256,7 @@ const DD_ERROR: f64 = 1.5777218104420236e-30;
 fn nearest_double_double<T: Real>(staged: &Staged<'_>, face: Face) -> Option<(T, Vec3<T>)> {
     let filter = staged.filter();
     let Segment { start, end } = staged.segment;
-    let value = |p| {
-        let (g, rest) = filter.precise.values([face as usize; 2], p);
-        Dd::new(g.to_array()[0], rest.to_array()[0]).normal().abs()
-    };
+    let value = |p| filter.precise.value(face as usize, p).abs();
     let (a, b) = (value(start), value(end));
     let total = a.add(b);
     let from_start = a.hi <= b.hi;

@@ -3,8 +3,10 @@
 //! 1. *Filter*: floating point with an error bound ([`Filter`]).
 //! 2. *Lattice*: on coarse coordinates floating point makes no error at all,
 //!    so that touching is decided as fast as the rest. CAD data lives there.
-//! 3. *Expansions*, inside the range of exponents where they are exact.
-//! 4. *Integers*, for everything else. The only stage that allocates.
+//! 3. *Double-double*: the filter again with 2^-53 of its error.
+//! 4. *Expansions*, inside the range of exponents where they are exact, while
+//!    they stay short: exact zeros off the lattice.
+//! 5. *Integers*, for everything else. The only stage that allocates.
 
 use crate::clip::StageCounts;
 use crate::clip::predicates::Predicates;
@@ -12,7 +14,7 @@ use crate::exact::Number;
 use crate::exact::dyadic::Dyadic;
 use crate::exact::expansion::{Expansion, in_safe_range};
 use crate::frustum::boundary::boundary;
-use crate::frustum::filter::{Filter, Values};
+use crate::frustum::filter::{Filter, PRECISE, Values};
 use crate::frustum::{Face, Frustum};
 use crate::math::{End, Segment, Vec3};
 use std::cmp::Ordering;
@@ -25,9 +27,18 @@ pub(crate) struct Staged<'a> {
     pub(crate) values: [Values; 2],
     /// Whether plain arithmetic is exact here.
     pub(crate) lattice: bool,
+    /// What is known of the signs at start and end, in bits by face.
+    known: [Known; 2],
     counts: StageCounts,
     /// Whether the filter has failed for this segment.
     failed: bool,
+}
+
+#[derive(Clone, Copy, Default)]
+struct Known {
+    any: u8,
+    outside: u8,
+    on: u8,
 }
 
 /// The product of an error bound and a value may underflow; this does not.
@@ -54,6 +65,7 @@ impl<'a> Staged<'a> {
             segment,
             values,
             lattice,
+            known: [Known::default(); 2],
             counts: StageCounts::default(),
             failed: false,
         }
@@ -62,6 +74,7 @@ impl<'a> Staged<'a> {
     /// Adds what this segment needed to a caller's counts.
     pub(crate) fn add_to(&self, counts: &mut StageCounts) {
         counts.filter_failures += u64::from(self.failed);
+        counts.double_doubles += self.counts.double_doubles;
         counts.expansions += self.counts.expansions;
         counts.integers += self.counts.integers;
     }
@@ -93,6 +106,10 @@ impl<'a> Staged<'a> {
             return sign;
         }
         self.failed = true;
+        if let Some(sign) = filter.precise_sign(face, p, values) {
+            self.counts.double_doubles += 1;
+            return sign;
+        }
         if self.filter().expansions && fits(p) {
             if let Some(value) = boundary::<Expansion>(self.frustum, face, p) {
                 self.counts.expansions += 1;
@@ -158,8 +175,38 @@ impl<'a> Staged<'a> {
         })
     }
 
+    /// The same in double-double. The values are within 2^-54 thresholds, and
+    /// the products' own rounding, 2^-100 of each, is below that too.
+    fn precise_cross(&self, a: Face, b: Face) -> Option<Ordering> {
+        let filter = self.filter();
+        let [sp, sq] = self.values.each_ref().map(|v| v.size);
+        if !(filter.covers(sp) && filter.covers(sq)) {
+            return None;
+        }
+        let at = |face: Face, p| filter.precise.value(face as usize, p);
+        let Segment { start, end } = self.segment;
+        let (pa, qa) = (at(a, start), at(a, end));
+        let (pb, qb) = (at(b, start), at(b, end));
+        let cross = qa.mul(pb).add(pa.mul(qb).neg());
+        let t = |face, size| PRECISE * filter.threshold(face, size);
+        let bound = t(a, sq) * pb.hi.abs() + t(b, sp) * qa.hi.abs();
+        let bound = bound + t(a, sp) * qb.hi.abs() + t(b, sq) * pa.hi.abs();
+        let bound = bound + (t(a, sp) * t(b, sq) + t(a, sq) * t(b, sp)) + TINY;
+        (cross.hi.abs() > bound).then(|| {
+            if cross.hi > 0.0 {
+                Ordering::Greater
+            } else {
+                Ordering::Less
+            }
+        })
+    }
+
     fn exact_cross(&mut self, a: Face, b: Face) -> Ordering {
         self.failed = true;
+        if let Some(cross) = self.precise_cross(a, b) {
+            self.counts.double_doubles += 1;
+            return cross;
+        }
         if let Some([pa, qa]) = self.expansions(a)
             && let Some([pb, qb]) = self.expansions(b)
             && let Some(cross) = cross(&pa, &qa, &pb, &qb)
@@ -169,6 +216,24 @@ impl<'a> Staged<'a> {
         let [pa, qa] = self.integers(a);
         let [pb, qb] = self.integers(b);
         cross(&pa, &qa, &pb, &qb).map_or(Ordering::Equal, |c| c.sign())
+    }
+
+    fn learn(&mut self, face: Face, end: End) {
+        let values = self.values[end as usize];
+        let sign = if self.lattice {
+            let g = values.g[face as usize];
+            g.partial_cmp(&0.0).unwrap_or(Ordering::Equal)
+        } else {
+            self.sign_at(face, self.point(end), &values)
+        };
+        let known = &mut self.known[end as usize];
+        let bit = 1 << face as u8;
+        known.any |= bit;
+        match sign {
+            Ordering::Less => known.outside |= bit,
+            Ordering::Equal => known.on |= bit,
+            Ordering::Greater => {}
+        }
     }
 
     /// Whether a face's value falls from start to end.
@@ -193,12 +258,18 @@ impl Predicates for Staged<'_> {
 
     #[inline(always)]
     fn side(&mut self, face: Face, end: End) -> Ordering {
-        let values = self.values[end as usize];
-        if self.lattice {
-            let g = values.g[face as usize];
-            return g.partial_cmp(&0.0).unwrap_or(Ordering::Equal);
+        let bit = 1 << face as u8;
+        if self.known[end as usize].any & bit == 0 {
+            self.learn(face, end);
         }
-        self.sign_at(face, self.point(end), &values)
+        let known = self.known[end as usize];
+        if known.outside & bit != 0 {
+            Ordering::Less
+        } else if known.on & bit != 0 {
+            Ordering::Equal
+        } else {
+            Ordering::Greater
+        }
     }
 
     /// With values p, q of the two faces at start and end,

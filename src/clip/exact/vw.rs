@@ -20,10 +20,13 @@
 //! reciprocal and the product add less than 4 u. The code takes a whole
 //! threshold for e, which is 13 times what the values can be off, and 2^-48.
 
+use super::decide::{At, Decision};
+use super::points;
+use super::staged::Staged;
 use crate::clip::predicates::{Predicates, Span};
-use crate::clip::{Accuracy, Class, Part, PartEnd, SegmentClip, StageCounts};
+use crate::clip::{Accuracy, Class, Part, PartEnd, SegmentClip, StageCounts, plain, vw};
 use crate::frustum::filter::{FLOOR, Filter, Values};
-use crate::frustum::{FaceSet, Form, Frustum, General, Layout, Orthographic, Symmetric};
+use crate::frustum::{Face, FaceSet, Form, Frustum, General, Layout, Orthographic, Symmetric};
 use crate::math::{End, NonFinite, Real, Segment, Vec3};
 use std::cmp::Ordering;
 use wide::f64x2;
@@ -65,7 +68,75 @@ fn clip_in<T: Real, L: Layout>(
         Triage::Outside => Ok(SegmentClip::OUTSIDE),
         Triage::Inside => Ok(inside(segment)),
         Triage::Crossing => cross(frustum, segment, accuracy, counts, &p, &q),
-        Triage::Unsure => super::clip(frustum, segment, accuracy, counts, |s| span(s)),
+        Triage::Unsure => unsure(frustum, segment, accuracy, counts, &p, &q),
+    }
+}
+
+/// Something is near a face, or far away, or not finite.
+#[cold]
+#[inline(never)]
+fn unsure<T: Real>(
+    frustum: &Frustum,
+    segment: &Segment<T>,
+    accuracy: Accuracy,
+    counts: &mut StageCounts,
+    p: &Values,
+    q: &Values,
+) -> Result<SegmentClip<T>, NonFinite> {
+    let filter = frustum.filter();
+    let wide = segment.to_f64();
+    let lattice = filter.is_lattice(wide.start, p.size) && filter.is_lattice(wide.end, q.size);
+    if lattice && accuracy == Accuracy::Fast {
+        return Ok(on_lattice(frustum, segment, &wide, [p, q]));
+    }
+    super::clip(frustum, segment, accuracy, counts, |s| span(s))
+}
+
+/// Where floating point makes no error. Values have at most 25 bits, so two
+/// crossing parameters that differ do so by more than 2^-52, and rounded
+/// quotients are in the order of the exact ones, equal where they are: the
+/// plain algorithm decides exactly.
+fn on_lattice<T: Real>(
+    frustum: &Frustum,
+    segment: &Segment<T>,
+    wide: &Segment<f64>,
+    values: [&Values; 2],
+) -> SegmentClip<T> {
+    let decided = plain::in_frame::<vw::Plain, f64>(frustum.plain(), wide);
+    let Some(part) = decided.part else {
+        return SegmentClip::OUTSIDE;
+    };
+    let finish = |end: &PartEnd<f64>| {
+        let crossed = end.faces.difference(part.coplanar);
+        let (t, point) = match (end.t, crossed.first()) {
+            (1.0, _) => (T::ONE, segment.end),
+            (t, Some(face)) if t > 0.0 => {
+                let [a, b] = values.map(|v| v.g[face as usize].abs());
+                let step = points::Step::new(a, b, wide);
+                points::place(frustum.filter(), wide, step, end.faces)
+            }
+            _ => (T::ZERO, segment.start),
+        };
+        PartEnd {
+            t,
+            point,
+            clipped: end.clipped,
+            faces: end.faces,
+            inward: !end.clipped,
+        }
+    };
+    let entry = finish(&part.entry);
+    let mut exit = finish(&part.exit);
+    if exit.t < entry.t {
+        exit.t = entry.t;
+    }
+    SegmentClip {
+        class: decided.class,
+        part: Some(Part {
+            entry,
+            exit,
+            coplanar: part.coplanar,
+        }),
     }
 }
 
@@ -88,7 +159,12 @@ fn cross<T: Real>(
                 return Ok(result);
             }
         }
-        Certificate::Cross(_) | Certificate::None => {}
+        Certificate::Cross(crossing) => {
+            let mut staged = Staged::with(frustum, segment.to_f64(), [*p, *q], false);
+            let decision = crossing.decision();
+            return Ok(points::build(&mut staged, segment, &decision, accuracy));
+        }
+        Certificate::None => {}
     }
     super::clip(frustum, segment, accuracy, counts, |s| span(s))
 }
@@ -163,6 +239,28 @@ enum Certificate {
 struct Crossing {
     faces: [usize; 2],
     clipped: [bool; 2],
+}
+
+impl Crossing {
+    /// The decision: nothing is on a face, and there are no ties.
+    fn decision(&self) -> Decision {
+        let end = |i: usize, own| {
+            let face = Face::ALL[self.faces[i]];
+            if self.clipped[i] {
+                (At::Crossing(face), FaceSet::from(face))
+            } else {
+                (At::End(own), FaceSet::EMPTY)
+            }
+        };
+        let (entry, exit) = (end(0, End::Start), end(1, End::End));
+        Decision {
+            class: Class::Cross,
+            at: [entry.0, exit.0],
+            clipped: self.clipped,
+            faces: [entry.1, exit.1],
+            coplanar: FaceSet::EMPTY,
+        }
+    }
 }
 
 /// The greatest two of six numbers in pairs `v`, and of six in `w`: greatest
