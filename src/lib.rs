@@ -7,11 +7,13 @@ mod interop;
 pub mod math;
 #[cfg(feature = "oracle")]
 pub mod oracle;
+#[cfg(feature = "report")]
+pub mod report;
 pub mod samples;
 
 pub use clip::{
-    Accuracy, Arithmetic, Class, Part, PartEnd, SegmentClip, SegmentClipper, StageCounts,
-    VwProjection,
+    Accuracy, Arithmetic, Class, CohenSutherland, CyrusBeck, LiangBarsky, LiangBarskyVariant, Part,
+    PartEnd, SegmentClip, SegmentClipper, SixPlanes, StageCounts, VwProjection,
 };
 pub use frustum::{
     Camera, ClipSpace, ClipY, Corners, DepthRange, Deviation, Direction, EndRect, Face, FaceSet,

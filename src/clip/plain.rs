@@ -1,12 +1,20 @@
 //! What the plain tiers of all clippers share: the check of the input, the
-//! boundary values in the frame, and the assembling of a result.
+//! choice of the frustum's form, and the assembling of a result.
 //!
 //! Every plain clipper finds two parameters, two face sets and the coplanar
 //! set in its own way; what they mean is said once, in [`Found::build`].
+//!
+//! The sets hold the faces whose computed parameter equals the chosen one,
+//! and at an end that is not clipped those with a boundary value of zero.
 
 use super::result::{Class, Part, PartEnd, SegmentClip};
-use crate::frustum::{FaceSet, Frustum, PlainFrustum};
+use crate::frustum::{
+    Face, FaceSet, Form, Frustum, General, Layout, Orthographic, PlainFrustum, Symmetric,
+};
 use crate::math::{NonFinite, Real, Segment, Vec3};
+
+/// A plain clipper of checked segments.
+pub(crate) type PlainClip<T> = fn(&PlainFrustum<T>, &Segment<T>) -> SegmentClip<T>;
 
 /// Runs a plain clipper on a checked segment.
 ///
@@ -16,7 +24,7 @@ use crate::math::{NonFinite, Real, Segment, Vec3};
 pub(crate) fn run<T: Real>(
     frustum: &Frustum,
     segment: &Segment<T>,
-    clip: impl Fn(&PlainFrustum<T>, &Segment<T>) -> SegmentClip<T>,
+    clip: PlainClip<T>,
 ) -> Result<SegmentClip<T>, NonFinite> {
     let Segment { start: p, end: q } = segment;
     let sum = (p.x.abs() + p.y.abs() + p.z.abs()) + (q.x.abs() + q.y.abs() + q.z.abs());
@@ -33,7 +41,7 @@ pub(crate) fn run<T: Real>(
 fn run_huge<T: Real>(
     frustum: &Frustum,
     segment: &Segment<T>,
-    clip: impl Fn(&PlainFrustum<T>, &Segment<T>) -> SegmentClip<T>,
+    clip: PlainClip<T>,
 ) -> Result<SegmentClip<T>, NonFinite> {
     segment.check_finite()?;
     let (down, up) = (T::from_f64(0.125), T::from_f64(8.0));
@@ -90,25 +98,93 @@ pub(crate) struct Found<T> {
 }
 
 impl<T: Real> Found<T> {
+    /// All of a segment.
+    pub(crate) const WHOLE: Self = Self {
+        t: [T::ZERO, T::ONE],
+        clipped: [false; 2],
+        faces: [FaceSet::EMPTY; 2],
+        coplanar: FaceSet::EMPTY,
+    };
+
+    /// The segment enters through a face at `t`.
+    #[inline(always)]
+    pub(crate) fn enter(&mut self, face: Face, t: T) {
+        if t > self.t[0] {
+            self.t[0] = t;
+            self.clipped[0] = true;
+            self.faces[0] = FaceSet::EMPTY;
+        }
+        if t >= self.t[0] {
+            self.faces[0].insert(face);
+        }
+    }
+
+    /// The segment leaves through a face at `t`.
+    #[inline(always)]
+    pub(crate) fn leave(&mut self, face: Face, t: T) {
+        if t < self.t[1] {
+            self.t[1] = t;
+            self.clipped[1] = true;
+            self.faces[1] = FaceSet::EMPTY;
+        }
+        if t <= self.t[1] {
+            self.faces[1].insert(face);
+        }
+    }
+
+    /// Takes in the values of a face at both ends, dividing only where their
+    /// signs ask for it. False if both are outside.
+    #[inline(always)]
+    pub(crate) fn face_by_signs(&mut self, face: Face, a: T, b: T) -> bool {
+        let zero = T::ZERO;
+        if a < zero {
+            if b < zero {
+                return false;
+            }
+            self.enter(face, a / (a - b));
+        } else if b < zero {
+            self.leave(face, a / (a - b));
+        }
+        if (a == zero) | (b == zero) {
+            self.zeros(face, a, b);
+        }
+        true
+    }
+
+    /// Takes in a face that has a zero value at an end.
+    #[cold]
+    fn zeros(&mut self, face: Face, a: T, b: T) {
+        let zero = T::ZERO;
+        if a == zero && b == zero {
+            self.coplanar.insert(face);
+        } else if a == zero {
+            self.enter(face, zero);
+        } else {
+            self.leave(face, T::ONE);
+        }
+    }
     /// The result.
     #[inline(always)]
     pub(crate) fn build(self, segment: &Segment<T>) -> SegmentClip<T> {
         let Segment { start: p, end: q } = *segment;
         let [t0, t1] = self.t;
-        if p == q {
+        let clipped = self.clipped[0] | self.clipped[1];
+        if !clipped && p == q {
             return point(segment, self.coplanar);
         }
         let touch = t0 == t1;
+        // Both points are always computed: choosing afterwards costs less than
+        // a mispredicted branch.
         let d = q - p;
-        let first = if self.clipped[0] { p + d * t0 } else { p };
-        let last = if self.clipped[1] { p + d * t1 } else { q };
+        let first = choose(self.clipped[0], p + d * t0, p);
+        let last = choose(self.clipped[1], p + d * t1, q);
         let both = self.faces[0].union(self.faces[1]);
         let [entry, exit] = if touch { [both, both] } else { self.faces };
         let class = if touch {
             Class::Touch
         } else if !self.coplanar.is_empty() {
             Class::Boundary
-        } else if self.clipped[0] | self.clipped[1] {
+        } else if clipped {
             Class::Cross
         } else {
             Class::Inside
@@ -133,6 +209,25 @@ impl<T: Real> Found<T> {
                 coplanar: self.coplanar,
             }),
         }
+    }
+}
+
+#[inline(always)]
+fn choose<T: Real>(condition: bool, a: Vec3<T>, b: Vec3<T>) -> Vec3<T> {
+    Vec3::new(
+        if condition { a.x } else { b.x },
+        if condition { a.y } else { b.y },
+        if condition { a.z } else { b.z },
+    )
+}
+
+/// Nothing of the segment. Not the constant, since copying that would copy
+/// its padding, too.
+#[inline(always)]
+pub(crate) fn outside<T>() -> SegmentClip<T> {
+    SegmentClip {
+        class: Class::Outside,
+        part: None,
     }
 }
 
@@ -169,5 +264,26 @@ fn whole<T: Real>(segment: &Segment<T>, class: Class, faces: FaceSet) -> Segment
             exit: end(T::ONE, segment.end),
             coplanar: FaceSet::EMPTY,
         }),
+    }
+}
+
+/// A plain algorithm over frame coordinates.
+pub(crate) trait InFrame {
+    /// Clips.
+    fn clip<T: Real, L: Layout>(f: &PlainFrustum<T>, segment: &Segment<T>) -> SegmentClip<T>;
+}
+
+/// Runs an algorithm in the form of the frustum.
+#[inline(always)]
+pub(crate) fn in_frame<A: InFrame, T: Real>(
+    f: &PlainFrustum<T>,
+    segment: &Segment<T>,
+) -> SegmentClip<T> {
+    match f.form {
+        Form::Symmetric => A::clip::<T, Symmetric<true>>(f, segment),
+        Form::General => A::clip::<T, General<true>>(f, segment),
+        Form::Orthographic => A::clip::<T, Orthographic>(f, segment),
+        Form::InfiniteSymmetric => A::clip::<T, Symmetric<false>>(f, segment),
+        Form::Infinite => A::clip::<T, General<false>>(f, segment),
     }
 }

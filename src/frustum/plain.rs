@@ -163,6 +163,22 @@ impl<T: Real> PlainFrustum<T> {
         Vec3::new(a.dot(c), b.dot(c), n.dot(c))
     }
 
+    /// The near and the far value at frame coordinate `z`; the far one is
+    /// positive where there is no far face.
+    #[inline(always)]
+    pub(crate) fn depths<L: Layout>(&self, z: T) -> [T; 2] {
+        let z = self.sign * z;
+        let far = if L::FAR { self.far - z } else { T::ONE };
+        [z - self.near, far]
+    }
+
+    /// The values of sides `i` and `i + 1` (0: left and right, 2: bottom and
+    /// top) at depth `w` and frame coordinate `c`.
+    #[inline(always)]
+    pub(crate) fn sides<L: Layout>(&self, i: usize, w: T, c: T) -> [T; 2] {
+        L::sides(&self.bounds, &self.slopes, i, w, c)
+    }
+
     /// The frustum's faces.
     #[inline(always)]
     pub(crate) fn faces(&self) -> &'static [Face] {

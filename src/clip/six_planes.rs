@@ -1,0 +1,194 @@
+//! Six planes: the "general algorithm", built as it is described.
+//!
+//! # Source
+//! The general method that the paper on projection reduction compares with. It
+//! says that this method errs on singular cases; built as described, the plain
+//! tier does, and is here so that this can be shown. The sound variant is
+//! [`CyrusBeck`](super::CyrusBeck).
+//!
+//! # Idea
+//! ```text
+//! for each face's plane in the world:
+//!     intersect it with the segment's line (not if parallel)
+//!     keep the point if it is between the ends, and inside the other planes
+//! an end of the segment that is inside all planes is kept, too
+//! the first and the last point kept bound the result; none: outside
+//! ```
+//!
+//! # Where it errs
+//! Whether a computed point is inside the other planes is decided on its
+//! rounded coordinates. On an edge or at a vertex both points that should be
+//! kept may be lost (a hit is missed), or one of them (the segment shrinks to
+//! a point). With exact predicates the same control flow is right: the point
+//! on face i is inside face j unless i is crossed before j is entered or after
+//! j is left.
+//!
+//! # Complexity
+//! Constant: up to six divisions, and up to 5 plane values for each point; the
+//! slowest one here.
+//!
+//! # Degenerate input
+//! A parallel plane is skipped; that the segment is outside it shows when
+//! other planes' points are tested. Of a segment of zero length only the ends
+//! are tested.
+
+use super::plain::{self, Found};
+use super::predicates::{Predicates, Role, Span};
+use super::result::{Accuracy, Arithmetic, SegmentClip, StageCounts};
+use super::{SegmentClipper, exact};
+use crate::frustum::{Face, FaceSet, Frustum, PlainFrustum};
+use crate::math::{NonFinite, Real, Segment};
+use std::cmp::Ordering;
+
+/// Clips by intersecting with six planes and keeping the points that are inside.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct SixPlanes {
+    /// What it computes with.
+    pub arithmetic: Arithmetic,
+}
+
+impl SixPlanes {
+    /// In floating point of the segment's own type.
+    pub const fn plain() -> Self {
+        Self {
+            arithmetic: Arithmetic::Plain,
+        }
+    }
+
+    /// With exact decisions.
+    pub const fn exact(accuracy: Accuracy) -> Self {
+        Self {
+            arithmetic: Arithmetic::Exact(accuracy),
+        }
+    }
+}
+
+impl<T: Real> SegmentClipper<T> for SixPlanes {
+    fn name(&self) -> &'static str {
+        "six-planes"
+    }
+
+    #[inline]
+    fn clip_segment(
+        &self,
+        frustum: &Frustum,
+        segment: &Segment<T>,
+    ) -> Result<SegmentClip<T>, NonFinite> {
+        match self.arithmetic {
+            Arithmetic::Plain => plain::run(frustum, segment, clip),
+            Arithmetic::Exact(accuracy) => {
+                let counts = &mut StageCounts::default();
+                exact::clip(frustum, segment, accuracy, counts, |p| span(p))
+            }
+        }
+    }
+}
+
+/// What has been kept.
+struct Kept<T> {
+    t: [T; 2],
+    faces: [FaceSet; 2],
+    any: bool,
+}
+
+impl<T: Real> Kept<T> {
+    #[inline(always)]
+    fn keep(&mut self, t: T, faces: FaceSet) {
+        self.any = true;
+        if t < self.t[0] {
+            (self.t[0], self.faces[0]) = (t, faces);
+        } else if t == self.t[0] {
+            self.faces[0] = self.faces[0].union(faces);
+        }
+        if t > self.t[1] {
+            (self.t[1], self.faces[1]) = (t, faces);
+        } else if t == self.t[1] {
+            self.faces[1] = self.faces[1].union(faces);
+        }
+    }
+}
+
+#[inline(always)]
+fn clip<T: Real>(f: &PlainFrustum<T>, segment: &Segment<T>) -> SegmentClip<T> {
+    let (zero, one) = (T::ZERO, T::ONE);
+    let (p, d) = (segment.start, segment.end - segment.start);
+    let holds = |point, but: Option<Face>| {
+        f.faces()
+            .iter()
+            .all(|&face| Some(face) == but || f.planes[face as usize].value(point) >= zero)
+    };
+    let mut kept = Kept {
+        t: [one, zero],
+        faces: [FaceSet::EMPTY; 2],
+        any: false,
+    };
+    let held = [holds(segment.start, None), holds(segment.end, None)];
+    for (end, t) in [zero, one].into_iter().enumerate() {
+        if held[end] {
+            kept.keep(t, FaceSet::EMPTY);
+        }
+    }
+    let mut coplanar = FaceSet::EMPTY;
+    for &face in f.faces() {
+        let plane = &f.planes[face as usize];
+        let a = plane.value(p);
+        let slope = plane.normal.dot(d);
+        if slope == zero {
+            if a == zero {
+                coplanar.insert(face);
+            }
+            continue;
+        }
+        let t = -a / slope;
+        if t >= zero && t <= one && holds(p + d * t, Some(face)) {
+            kept.keep(t, face.into());
+        }
+    }
+    if !kept.any {
+        return plain::outside();
+    }
+    Found {
+        t: kept.t,
+        clipped: held.map(|held| !held),
+        faces: kept.faces,
+        coplanar,
+    }
+    .build(segment)
+}
+
+/// The control flow on exact predicates.
+pub(super) fn span(p: &mut impl Predicates) -> Option<Span> {
+    let mut span = Span::default();
+    let mut inside = [true; 2];
+    for &face in p.faces() {
+        let role = p.role(face);
+        match role {
+            Role::Outside => return None,
+            Role::Inside => continue,
+            Role::Enter => inside[0] = false,
+            Role::Leave => inside[1] = false,
+        }
+        if is_kept(p, face) {
+            if role == Role::Enter {
+                span.enter = Some(face);
+            } else {
+                span.leave = Some(face);
+            }
+        }
+    }
+    let found = |inside, face: Option<Face>| inside || face.is_some();
+    (found(inside[0], span.enter) && found(inside[1], span.leave)).then_some(span)
+}
+
+/// Whether the crossing of one face is inside all others.
+fn is_kept(p: &mut impl Predicates, face: Face) -> bool {
+    p.faces().iter().all(|&other| {
+        other == face
+            || match p.role(other) {
+                Role::Outside => false,
+                Role::Enter => p.order(face, other) != Ordering::Less,
+                Role::Leave => p.order(face, other) != Ordering::Greater,
+                Role::Inside => true,
+            }
+    })
+}
