@@ -60,7 +60,7 @@ impl Subject for ExactClipper {
         accuracy: Accuracy,
         counts: &mut StageCounts,
     ) -> Result<SegmentClip<f64>, NonFinite> {
-        frustum.clip_segment_counted(*segment, accuracy, counts)
+        frustum.clip_segment_counted(segment, accuracy, counts)
     }
 
     fn clip_f32(
@@ -70,7 +70,7 @@ impl Subject for ExactClipper {
         accuracy: Accuracy,
         counts: &mut StageCounts,
     ) -> Result<SegmentClip<f32>, NonFinite> {
-        frustum.clip_segment_counted(*segment, accuracy, counts)
+        frustum.clip_segment_counted(segment, accuracy, counts)
     }
 }
 
