@@ -159,6 +159,7 @@ impl FrustumError {
 }
 
 impl fmt::Display for FrustumError {
+    // Long because it has one arm a variant.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::NonFinite { what, value } => write!(f, "{what} is {value}; it must be finite"),

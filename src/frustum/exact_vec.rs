@@ -133,6 +133,15 @@ mod tests {
     }
 
     #[test]
+    fn zero_is_positive() {
+        let (zero, tiny, minus) = (Dyadic::from(0.0), Dyadic::from(5e-324), Dyadic::from(-3.0));
+        for x in [zero.ratio(&minus), tiny.ratio(&minus), minus.scaled(-2000)] {
+            assert_eq!(x.to_bits(), 0);
+        }
+        assert_eq!(minus.ratio(&zero), f64::INFINITY);
+    }
+
+    #[test]
     fn a_unit_vector_needs_no_range() {
         let v = Vec3::new(3e300, 0.0, -4e300);
         assert_eq!(unit(&exact(v)), Some(Vec3::new(0.6, 0.0, -0.8)));

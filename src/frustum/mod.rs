@@ -32,10 +32,13 @@ use crate::math::{Pose, Real, Vec3};
 use filter::Filter;
 use independent::independent;
 use plain::PlainPair;
+use std::fmt;
 
 /// A view frustum: the closed set of the points whose frame coordinates (see
 /// [`Pose`]) lie in a [`Shape`], under exact arithmetic on the stored doubles.
-#[derive(Clone, Debug, PartialEq)]
+///
+/// Two frusta are equal if their poses and shapes are.
+#[derive(Clone)]
 pub struct Frustum {
     pose: Pose,
     shape: Shape,
@@ -92,6 +95,23 @@ impl Frustum {
     pub(crate) fn plain_scaled<T: Real>(&self, scale: f64) -> PlainFrustum<T> {
         let pose = Pose::new(self.pose.origin * scale, self.pose.axes);
         PlainFrustum::new(&pose, &self.shape.scaled(scale))
+    }
+}
+
+// By what defines a frustum: what is prepared from it follows, and may hold a
+// NaN where a filter has no room.
+impl PartialEq for Frustum {
+    fn eq(&self, other: &Self) -> bool {
+        self.pose == other.pose && self.shape == other.shape
+    }
+}
+
+impl fmt::Debug for Frustum {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Frustum")
+            .field("pose", &self.pose)
+            .field("shape", &self.shape)
+            .finish_non_exhaustive()
     }
 }
 

@@ -354,18 +354,25 @@ mod tests {
 
     #[test]
     fn any_power_of_two_gives_the_same_answer() {
-        let (p, q) = ([-3.0, 1.0], [2.0, 3.5]);
-        for t in [triangle(), wedge()] {
-            let q = if t == wedge() { [q[0], -q[1]] } else { q };
-            let expected = t.clip_segment(p, q);
-            assert!(expected.is_some());
-            for e in [-1060, -800, -600, 300, 600, 1015] {
-                for f in [-900, 0, 1015] {
-                    let point = |[x, z]: [f64; 2]| [libm::ldexp(x, e), libm::ldexp(z, f)];
-                    // Slopes must be doubles too.
-                    if (e - f).abs() < 1000 {
-                        let got = t.shifted(e, f).clip_segment(point(p), point(q));
-                        assert_eq!(got, expected, "{e} {f}");
+        // Across the depth and, in both directions, across both legs.
+        let ends = [
+            ([-3.0, 1.0], [2.0, 3.5]),
+            ([-9.0, 3.0], [9.0, 3.5]),
+            ([9.0, 3.0], [-9.0, 2.5]),
+        ];
+        for (t, sign) in [(triangle(), 1.0), (wedge(), -1.0)] {
+            for (p, q) in ends {
+                let (p, q) = ([p[0], sign * p[1]], [q[0], sign * q[1]]);
+                let expected = t.clip_segment(p, q);
+                assert!(expected.is_some_and(|i| i.end() < 1.0 || i.start() > 0.0));
+                for e in [-1060, -800, -600, 300, 600, 1015] {
+                    for f in [-900, 0, 1015] {
+                        let point = |[x, z]: [f64; 2]| [libm::ldexp(x, e), libm::ldexp(z, f)];
+                        // Slopes must be doubles too.
+                        if (e - f).abs() < 1000 {
+                            let got = t.shifted(e, f).clip_segment(point(p), point(q));
+                            assert_eq!(got, expected, "{e} {f}");
+                        }
                     }
                 }
             }
