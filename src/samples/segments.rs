@@ -42,9 +42,20 @@ pub(crate) fn segment<T: Real>(family: Family, scene: &Scene, seed: u64, index: 
         Family::Subnormal | Family::Thin if aim.random.one_in(2) => aim.through_by_ulps(),
         _ => aim.mixed(),
     };
-    let finite =
-        |p: Vec3<T>| Vec3::from(p.to_array().map(|c| if c.is_finite() { c } else { T::ONE }));
-    Segment::new(finite(segment.start), finite(segment.end))
+    let mut tidy = |p: Vec3<T>| Vec3::from(p.to_array().map(|c| tidied(c, &mut random)));
+    Segment::new(tidy(segment.start), tidy(segment.end))
+}
+
+/// A finite coordinate; some zeros negative, because ends must come back bit for
+/// bit and the sign of a zero must not depend on their order.
+fn tidied<T: Real>(c: T, random: &mut Random) -> T {
+    if c == T::ZERO && random.one_in(4) {
+        -T::ZERO
+    } else if c.is_finite() {
+        c
+    } else {
+        T::ONE
+    }
 }
 
 /// The samples and near misses of each solid, made once.
