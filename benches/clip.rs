@@ -1,0 +1,89 @@
+//! Every clipper on every mix: `cargo bench --bench clip`.
+//!
+//! For ratios that stand on a machine that others use, too, see `ratios`.
+//! Answers are compared before anything is timed.
+
+mod mixes;
+
+use criterion::measurement::WallTime;
+use criterion::{BenchmarkGroup, Criterion, Throughput, criterion_group, criterion_main};
+use frusta::{
+    Accuracy, CohenSutherland, CyrusBeck, Frustum, LiangBarsky, LiangBarskyVariant, Pose, Real,
+    Segment, SegmentClipper, SixPlanes, VwProjection,
+};
+use mixes::{COUNT, Form, Mix, assert_answers_agree, frustum, poses};
+use std::hint::black_box;
+use std::time::Duration;
+
+fn bench<T: Real>(
+    group: &mut BenchmarkGroup<'_, WallTime>,
+    tier: &str,
+    clipper: impl SegmentClipper<T>,
+    frustum: &Frustum,
+    segments: &[Segment<T>],
+) {
+    group.bench_function(format!("{}/{tier}", clipper.name()), |b| {
+        b.iter(|| {
+            for segment in segments {
+                let _ = black_box(clipper.clip_segment(black_box(frustum), segment));
+            }
+        });
+    });
+}
+
+fn all<T: Real>(c: &mut Criterion, scalar: &str, form: Form, (place, pose): (&str, Pose)) {
+    use LiangBarskyVariant::{Textbook, Tuned};
+    let f = &frustum(form.shape(), &pose);
+    for mix in Mix::ALL {
+        let s = &mix.segments::<T>(&pose);
+        assert_answers_agree(f, s);
+        let name = format!("{scalar}/{}/{place}/{}", form.name(), mix.name());
+        let group = &mut c.benchmark_group(name);
+        group.throughput(Throughput::Elements(COUNT as u64));
+        bench(group, "plain", LiangBarsky::plain(Textbook), f, s);
+        bench(group, "plain", LiangBarsky::plain(Tuned), f, s);
+        bench(group, "plain", VwProjection::plain(), f, s);
+        bench(group, "plain", CyrusBeck::plain(), f, s);
+        bench(group, "plain", CohenSutherland::plain(), f, s);
+        bench(group, "plain", SixPlanes::plain(), f, s);
+        for (tier, accuracy) in [
+            ("fast", Accuracy::Fast),
+            ("nearest", Accuracy::Nearest),
+            ("inward", Accuracy::Inward),
+        ] {
+            bench(group, tier, VwProjection::exact(accuracy), f, s);
+        }
+        bench(
+            group,
+            "fast",
+            LiangBarsky::exact(Tuned, Accuracy::Fast),
+            f,
+            s,
+        );
+    }
+}
+
+fn clip(c: &mut Criterion) {
+    for place in poses() {
+        all::<f64>(c, "f64", Form::Symmetric, place);
+        all::<f32>(c, "f32", Form::Symmetric, place);
+    }
+    for form in &Form::ALL[1..] {
+        all::<f64>(c, "f64", *form, poses()[0]);
+    }
+}
+
+/// Short, since there are many: raise with `--measurement-time`.
+fn config() -> Criterion {
+    Criterion::default()
+        .sample_size(20)
+        .warm_up_time(Duration::from_millis(200))
+        .measurement_time(Duration::from_millis(600))
+}
+
+criterion_group! {
+    name = benches;
+    config = config();
+    targets = clip
+}
+criterion_main!(benches);
