@@ -27,6 +27,13 @@ impl Dd {
         Dd { hi, lo }
     }
 
+    /// The same value with `hi` the rounded sum.
+    #[inline(always)]
+    pub(crate) fn normal(self) -> Self {
+        let (hi, lo) = two_sum(self.hi, self.lo);
+        Dd { hi, lo }
+    }
+
     #[inline(always)]
     pub(crate) fn neg(self) -> Self {
         Dd::new(-self.hi, -self.lo)

@@ -4,9 +4,61 @@
 //! wherever nothing overflows and no product's low part underflows. No fused
 //! multiply-add: the same bits on every machine.
 
+use std::ops::{Add, Mul, Neg, Sub};
+
+/// A double, or two of them side by side for the compiler to put into one
+/// vector register; every operation acts on each and gives the same bits.
+pub(crate) trait Lanes:
+    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Neg<Output = Self>
+{
+    /// The same value everywhere.
+    fn splat(value: f64) -> Self;
+}
+
+impl Lanes for f64 {
+    #[inline(always)]
+    fn splat(value: f64) -> Self {
+        value
+    }
+}
+
+/// Two doubles.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Two(pub(crate) [f64; 2]);
+
+impl Lanes for Two {
+    #[inline(always)]
+    fn splat(value: f64) -> Self {
+        Two([value; 2])
+    }
+}
+
+macro_rules! each {
+    ($trait:ident, $name:ident, $op:tt) => {
+        impl $trait for Two {
+            type Output = Two;
+            #[inline(always)]
+            fn $name(self, other: Two) -> Two {
+                Two([self.0[0] $op other.0[0], self.0[1] $op other.0[1]])
+            }
+        }
+    };
+}
+each!(Add, add, +);
+each!(Sub, sub, -);
+each!(Mul, mul, *);
+
+impl Neg for Two {
+    type Output = Two;
+    #[inline(always)]
+    fn neg(self) -> Two {
+        Two([-self.0[0], -self.0[1]])
+    }
+}
+
 /// `a + b` rounded, and the rest: `s + e = a + b`.
 #[inline(always)]
-pub(crate) fn two_sum(a: f64, b: f64) -> (f64, f64) {
+pub(crate) fn two_sum<F: Lanes>(a: F, b: F) -> (F, F) {
     let s = a + b;
     let bb = s - a;
     (s, (a - (s - bb)) + (b - bb))
@@ -14,15 +66,17 @@ pub(crate) fn two_sum(a: f64, b: f64) -> (f64, f64) {
 
 /// As [`two_sum`], for `|a| >= |b|` or `a = 0`.
 #[inline(always)]
-pub(crate) fn fast_two_sum(a: f64, b: f64) -> (f64, f64) {
+pub(crate) fn fast_two_sum<F: Lanes>(a: F, b: F) -> (F, F) {
     let s = a + b;
     (s, b - (s - a))
 }
 
 /// `a - b` rounded, and the rest.
 #[inline(always)]
-pub(crate) fn two_diff(a: f64, b: f64) -> (f64, f64) {
-    two_sum(a, -b)
+pub(crate) fn two_diff<F: Lanes>(a: F, b: F) -> (F, F) {
+    let s = a - b;
+    let bb = s - a;
+    (s, (a - (s - bb)) - (b + bb))
 }
 
 /// 2^27 + 1, which splits 53 bits into 26 and 26 with a sign.
@@ -30,17 +84,22 @@ const SPLITTER: f64 = 134_217_729.0;
 
 /// The upper and the lower half of a double's bits.
 #[inline(always)]
-fn split(a: f64) -> (f64, f64) {
-    let c = SPLITTER * a;
+pub(crate) fn split<F: Lanes>(a: F) -> (F, F) {
+    let c = F::splat(SPLITTER) * a;
     let high = c - (c - a);
     (high, a - high)
 }
 
 /// `a * b` rounded, and the rest: `p + e = a * b`.
 #[inline(always)]
-pub(crate) fn two_prod(a: f64, b: f64) -> (f64, f64) {
+pub(crate) fn two_prod<F: Lanes>(a: F, b: F) -> (F, F) {
+    two_prod_split(a, split(a), b)
+}
+
+/// As [`two_prod`], with the halves of `a` known.
+#[inline(always)]
+pub(crate) fn two_prod_split<F: Lanes>(a: F, (ah, al): (F, F), b: F) -> (F, F) {
     let p = a * b;
-    let (ah, al) = split(a);
     let (bh, bl) = split(b);
     (p, al * bl - (((p - ah * bh) - al * bh) - ah * bl))
 }

@@ -31,10 +31,11 @@
 //! T is evaluated as `const + factor * S`, its rounding covered by that factor.
 //! The comparison is written with `>`, so that NaN and infinity fail it.
 
+use super::precise::Precise;
 use super::{Face, Form, Frustum, General, Layout, Shape};
 use crate::exact::double_double::Dd;
 use crate::exact::expansion::in_safe_range;
-use crate::exact::float::{exp2, lowest_bit, two_diff, two_prod, two_sum};
+use crate::exact::float::{exp2, lowest_bit, two_diff, two_prod};
 use crate::math::{Pose, Vec3};
 use std::cmp::Ordering;
 
@@ -42,7 +43,7 @@ use std::cmp::Ordering;
 const RELATIVE: f64 = 1.4210854715202004e-14;
 /// 2^-500: far above what underflow can do inside [`in_range`], far below
 /// every scale.
-const FLOOR: f64 = 3.0549363634996047e-151;
+pub(crate) const FLOOR: f64 = 3.0549363634996047e-151;
 /// Stands for the far value of an infinite frustum: never crossed.
 pub(crate) const NO_FAR: f64 = 1e300;
 
@@ -53,13 +54,12 @@ pub(crate) struct Filter {
     pub(crate) form: Form,
     /// The direction of depth, 1 or -1.
     sigma: f64,
-    near: f64,
-    far: f64,
+    pub(crate) near: f64,
+    pub(crate) far: f64,
     /// left, right, bottom, top at the near end.
     at_near: [f64; 4],
-    /// Change of the four bounds for a unit of depth, to 106 bits.
+    /// Change of the four bounds for a unit of depth.
     slope: [f64; 4],
-    slope_low: [f64; 4],
     origin: Vec3<f64>,
     axes: [Vec3<f64>; 3],
     /// Thresholds: `side.0 + side.1 * S`.
@@ -68,6 +68,8 @@ pub(crate) struct Filter {
     /// S must be below this; 0 where the filter does not apply at all.
     limit: f64,
     lattice: Option<Lattice>,
+    /// The same to 106 bits.
+    pub(crate) precise: Precise,
     /// Whether the frustum's numbers fit expansions.
     pub(crate) expansions: bool,
 }
@@ -191,51 +193,6 @@ impl Filter {
         size < lattice.limit && on(p.x) && on(p.y) && on(p.z)
     }
 
-    /// A boundary value in double-double, error at most 60 u^2 scale.
-    #[inline(always)]
-    pub(crate) fn precise(&self, face: Face, p: Vec3<f64>) -> Dd {
-        match face {
-            Face::Near => self.precise_depth(p, self.near, self.sigma),
-            Face::Far => self.precise_depth(p, self.far, -self.sigma),
-            _ => self.precise_side(face as usize - 2, p),
-        }
-    }
-
-    /// Left, right, bottom, top by number: looked up, not branched on.
-    #[inline(always)]
-    fn precise_side(&self, side: usize, p: Vec3<f64>) -> Dd {
-        let side = side & 3;
-        let depth = self.precise_depth(p, self.near, self.sigma);
-        let slope = Dd::new(self.slope[side], self.slope_low[side]);
-        let (product, low) = two_prod(slope.hi, depth.hi);
-        let low = low + (slope.hi * depth.lo + slope.lo * depth.hi);
-        let across = self.precise_frame(side / 2, p);
-        let (sum, rest) = two_diff(across.hi, self.at_near[side]);
-        let (value, more) = two_diff(sum, product);
-        let (hi, lo) = two_sum(value, more + ((rest + across.lo) - low));
-        let sign = [1.0, -1.0][side % 2];
-        Dd::new(sign * hi, sign * lo)
-    }
-
-    /// `sign * (z - bound)`.
-    #[inline(always)]
-    fn precise_depth(&self, p: Vec3<f64>, bound: f64, sign: f64) -> Dd {
-        let z = self.precise_frame(2, p);
-        let (sum, rest) = two_diff(z.hi, bound);
-        let (hi, lo) = two_sum(sum, rest + z.lo);
-        Dd::new(sign * hi, sign * lo)
-    }
-
-    /// A frame coordinate.
-    #[inline(always)]
-    fn precise_frame(&self, k: usize, p: Vec3<f64>) -> Dd {
-        if self.identity {
-            return Dd::new(p.to_array()[k], 0.0);
-        }
-        let term = |j: usize| Dd::difference(p[j], self.origin[j]).mul_f64(self.axes[k][j]);
-        term(0).add(term(1)).add(term(2))
-    }
-
     /// Prepares a valid frustum's constants.
     pub(crate) fn new(pose: &Pose, shape: &Shape) -> Self {
         let near = shape.near();
@@ -251,17 +208,17 @@ impl Filter {
             far: far.map_or(near.z, |far| far.z),
             at_near: near.rect.to_array(),
             slope: slopes.map(|s| s.hi),
-            slope_low: slopes.map(|s| s.lo),
             origin: pose.origin,
             axes: pose.axes,
             side: (0.0, 0.0),
             depth: (0.0, 0.0),
             limit: 0.0,
             lattice: None,
+            precise: Precise::new(pose, shape, &slopes),
             expansions: fits_expansions(pose, shape),
         };
         filter.prepare_thresholds();
-        filter.lattice = filter.find_lattice(shape);
+        filter.lattice = filter.find_lattice(shape, &slopes);
         filter
     }
 
@@ -313,8 +270,8 @@ impl Filter {
     /// The finest unit such that points on its multiples, as far out as a few
     /// times the frustum's size, have values of at most 26 bits: then the
     /// values and the products of two are exact.
-    fn find_lattice(&self, shape: &Shape) -> Option<Lattice> {
-        if self.limit == 0.0 || !slopes_exact(shape, &self.slope, &self.slope_low) {
+    fn find_lattice(&self, shape: &Shape, slopes: &[Dd; 4]) -> Option<Lattice> {
+        if self.limit == 0.0 || !slopes_exact(shape, slopes) {
             return None;
         }
         let sizes = self.axis_sizes();
@@ -382,7 +339,7 @@ fn slopes(shape: &Shape) -> [Dd; 4] {
 }
 
 /// Whether the rounded slopes are the slopes.
-fn slopes_exact(shape: &Shape, slope: &[f64; 4], low: &[f64; 4]) -> bool {
+fn slopes_exact(shape: &Shape, slopes: &[Dd; 4]) -> bool {
     let Shape::Finite { near, far } = shape else {
         return true;
     };
@@ -391,7 +348,7 @@ fn slopes_exact(shape: &Shape, slope: &[f64; 4], low: &[f64; 4]) -> bool {
     rest == 0.0
         && (0..4).all(|i| {
             let (rise, more) = two_diff(f[i], n[i]);
-            low[i] == 0.0 && more == 0.0 && two_prod(slope[i], depth.abs()) == (rise, 0.0)
+            slopes[i].lo == 0.0 && more == 0.0 && two_prod(slopes[i].hi, depth.abs()) == (rise, 0.0)
         })
 }
 

@@ -1,19 +1,25 @@
 //! The frustum: its canonical form and how to make one.
 
 pub(crate) mod boundary;
+mod camera;
+mod dyadic;
 mod error;
 mod face;
 pub(crate) mod filter;
+mod independent;
 mod plain;
+mod precise;
 mod shape;
 
+pub use camera::{Camera, Projection};
 pub use error::FrustumError;
 pub use face::{Face, FaceSet};
 pub(crate) use plain::{Form, General, Layout, Orthographic, PlainFrustum, Symmetric};
 pub use shape::{Direction, EndRect, Shape};
 
-use crate::math::{Pose, Real};
+use crate::math::{Pose, Real, Vec3};
 use filter::Filter;
+use independent::independent;
 use plain::PlainPair;
 
 /// A view frustum: the closed set of the points whose frame coordinates (see
@@ -34,6 +40,7 @@ impl Frustum {
     /// axes that are exactly dependent.
     pub fn new(pose: Pose, shape: Shape) -> Result<Self, FrustumError> {
         shape.validate()?;
+        check_pose(&pose)?;
         let filter = Filter::new(&pose, &shape);
         let plain = PlainPair::new(&pose, &shape);
         Ok(Self {
@@ -76,3 +83,31 @@ impl Frustum {
         PlainFrustum::new(&pose, &self.shape.scaled(scale))
     }
 }
+
+fn check_pose(pose: &Pose) -> Result<(), FrustumError> {
+    let vectors = [pose.origin, pose.axes[0], pose.axes[1], pose.axes[2]];
+    let numbers = vectors.into_iter().flat_map(Vec3::to_array);
+    for (what, value) in POSE_NAMES.into_iter().zip(numbers) {
+        FrustumError::check_finite(what, value)?;
+    }
+    if independent(&pose.axes) {
+        Ok(())
+    } else {
+        Err(FrustumError::DependentAxes)
+    }
+}
+
+const POSE_NAMES: [&str; 12] = [
+    "pose.origin.x",
+    "pose.origin.y",
+    "pose.origin.z",
+    "pose.axes[0].x",
+    "pose.axes[0].y",
+    "pose.axes[0].z",
+    "pose.axes[1].x",
+    "pose.axes[1].y",
+    "pose.axes[1].z",
+    "pose.axes[2].x",
+    "pose.axes[2].y",
+    "pose.axes[2].z",
+];

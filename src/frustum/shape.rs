@@ -124,16 +124,16 @@ impl Shape {
             Shape::Finite { near, far } => (near, far.rect, FINITE_NAMES),
             Shape::Infinite { near, slopes, .. } => (near, *slopes, INFINITE_NAMES),
         };
-        finite(names[0], near.z)?;
+        FrustumError::check_finite(names[0], near.z)?;
         if let Shape::Finite { far, .. } = self {
-            finite(names[1], far.z)?;
+            FrustumError::check_finite(names[1], far.z)?;
             if near.z == far.z {
                 return Err(FrustumError::NoDepth { z: near.z });
             }
         }
         let sides = near.rect.to_array().into_iter().chain(far.to_array());
         for (name, value) in names[2..].iter().zip(sides) {
-            finite(name, value)?;
+            FrustumError::check_finite(name, value)?;
         }
         for (i, what) in ["left..right", "bottom..top"].into_iter().enumerate() {
             let (n, f) = (near.rect.to_array(), far.to_array());
@@ -180,11 +180,3 @@ const INFINITE_NAMES: [&str; 10] = [
     "slopes.bottom",
     "slopes.top",
 ];
-
-fn finite(what: &'static str, value: f64) -> Result<(), FrustumError> {
-    if value.is_finite() {
-        Ok(())
-    } else {
-        Err(FrustumError::NonFinite { what, value })
-    }
-}

@@ -9,7 +9,7 @@
 
 use super::points::ExactPoint;
 use super::staged::Staged;
-use crate::frustum::Face;
+use crate::frustum::{Face, FaceSet};
 use crate::math::{Real, Vec3};
 use std::cmp::Ordering;
 
@@ -18,26 +18,40 @@ use std::cmp::Ordering;
 const REACH: i32 = 5;
 
 /// The first candidate in the frustum and true, or the rounded point and false.
+///
+/// With the identity pose an end on near or far keeps exactly that `z` where a
+/// candidate with it is in the frustum.
 pub(super) fn search<T: Real>(
     staged: &mut Staged<'_>,
     face: Face,
+    faces: FaceSet,
     rounded: Vec3<T>,
 ) -> (Vec3<T>, bool) {
     if contains(staged, rounded) {
         return (rounded, true);
     }
-    let axes = [rounded.x, rounded.y, rounded.z];
-    let even = axes.iter().all(|&c| evenly_spaced(c));
-    if even && let Some(point) = nearest_inside(staged, rounded, 1, |_, _| true) {
-        return (point, true);
+    let ends = faces.contains(Face::Near) || faces.contains(Face::Far);
+    let keep_depth = staged.filter().identity && ends;
+    let even = rounded.to_array().into_iter().all(evenly_spaced);
+    if even {
+        let keep = |k, steps| k < 2 || steps == 0 || !keep_depth;
+        if let Some(point) = nearest_inside(staged, rounded, 1, keep) {
+            return (point, true);
+        }
     }
     let exact = ExactPoint::new(staged, face);
-    let mut allowed = [[None; 2 * REACH as usize + 1]; 3];
-    let found = nearest_inside(staged, rounded, REACH, |k, steps| {
-        let slot = &mut allowed[k][(steps + REACH).unsigned_abs() as usize];
-        *slot.get_or_insert_with(|| within_two_ulp(&exact, k, walk(axes[k], steps)))
-    });
-    match found {
+    let mut known = [[None; 2 * REACH as usize + 1]; 3];
+    let mut near = |k: usize, steps: i32| {
+        let slot = &mut known[k][(steps + REACH).unsigned_abs() as usize];
+        let value = walk(rounded.to_array()[k], steps);
+        *slot.get_or_insert_with(|| within_two_ulp(&exact, k, value))
+    };
+    let mut found = None;
+    if keep_depth {
+        let keep = |k: usize, steps: i32| (k < 2 || steps == 0) && near(k, steps);
+        found = nearest_inside(staged, rounded, REACH, keep);
+    }
+    match found.or_else(|| nearest_inside(staged, rounded, REACH, near)) {
         Some(point) => (point, true),
         None => (rounded, false),
     }

@@ -23,6 +23,8 @@ use crate::clip::{Accuracy, Part, PartEnd, SegmentClip};
 use crate::exact::Number;
 use crate::exact::double_double::Dd;
 use crate::exact::dyadic::Dyadic;
+use crate::exact::float::Two;
+use crate::frustum::filter::{Filter, Values};
 use crate::frustum::{Face, FaceSet};
 use crate::math::{End, Real, Segment, Vec3};
 use std::cmp::Ordering;
@@ -35,10 +37,16 @@ pub(crate) fn build<T: Real>(
     decision: &Decision,
     accuracy: Accuracy,
 ) -> SegmentClip<T> {
-    let mut entry = end(staged, segment, decision, 0, accuracy);
+    let entry = end(staged, segment, decision, 0, accuracy);
     let mut exit = if decision.at[0] == decision.at[1] {
+        let clipped = decision.clipped[1];
         PartEnd {
-            clipped: decision.clipped[1],
+            clipped,
+            inward: if accuracy == Accuracy::Inward {
+                entry.inward
+            } else {
+                !clipped
+            },
             ..entry
         }
     } else {
@@ -48,9 +56,6 @@ pub(crate) fn build<T: Real>(
         // Both are within the bound of the exact parameters, which are in
         // order; so is the greater of the two.
         exit.t = entry.t;
-    }
-    if accuracy == Accuracy::Inward || !entry.clipped {
-        entry.inward |= !entry.clipped;
     }
     SegmentClip {
         class: decision.class,
@@ -76,12 +81,13 @@ fn end<T: Real>(
         At::End(End::End) => (T::ONE, segment.end, true),
         At::Crossing(face) => crossing(staged, face, faces, accuracy),
     };
+    let clipped = decision.clipped[which];
     PartEnd {
         t,
         point,
-        clipped: decision.clipped[which],
+        clipped,
         faces,
-        inward,
+        inward: inward && (!clipped || accuracy == Accuracy::Inward),
     }
 }
 
@@ -104,15 +110,16 @@ fn crossing<T: Real>(
         }
         Accuracy::Inward => {
             let (t, point) = nearest(staged, face);
-            let (point, inward) = inward::search(staged, face, point);
+            let (point, inward) = inward::search(staged, face, faces, point);
             (t, point, inward)
         }
     }
 }
 
 /// Where on the segment, seen from the end with the smaller boundary value.
-struct Step {
-    from: End,
+pub(super) struct Step {
+    /// The end, by number.
+    from: usize,
     tau: f64,
 }
 
@@ -120,47 +127,74 @@ impl Step {
     /// From the magnitudes at start and end.
     #[inline(always)]
     fn new(a: f64, b: f64, segment: &Segment<f64>) -> Self {
+        // A look-up by the result, not a branch on it: it cannot be predicted.
+        let mut from = usize::from(b < a);
+        if a == b {
+            from = lesser(segment);
+        }
         Step {
-            from: nearer(a.partial_cmp(&b), segment),
-            tau: a.min(b) / (a + b),
+            from,
+            tau: [a, b][from] / (a + b),
         }
     }
 }
 
-/// The end to step from, by the order of the values at start and end.
-#[inline(always)]
-fn nearer(order: Option<Ordering>, segment: &Segment<f64>) -> End {
-    match order {
-        Some(Ordering::Less) => End::Start,
-        Some(Ordering::Greater) => End::End,
-        _ if segment.start.to_array() <= segment.end.to_array() => End::Start,
-        _ => End::End,
-    }
+/// The lexicographically smaller end, by number.
+#[cold]
+fn lesser(segment: &Segment<f64>) -> usize {
+    usize::from(segment.start.to_array() > segment.end.to_array())
 }
 
 /// How far the rounded values must be from zero for f32 output: their error is
 /// below a tenth of a threshold, so then below 2^-25 of them.
 const F32_FACTOR: f64 = 4_194_304.0;
 
-/// Boundary values to 2 u. The way they are found depends on the two points
-/// and the face alone, not on which point comes first nor on the algorithm.
-#[inline(always)]
+/// The step to a crossed face. The way its boundary values are found depends
+/// on the two points and the face alone, not on which point comes first nor on
+/// the algorithm: rounded values where they are good enough, else
+/// double-double, else exact.
 fn step<T: Real>(staged: &mut Staged<'_>, face: Face) -> Step {
-    let [p, q] = [0, 1].map(|i| staged.values[i].g[face as usize].abs());
-    let depth = matches!(face, Face::Near | Face::Far) && staged.filter().identity;
-    let plain = staged.lattice
-        || (depth && p.max(q) < f64::MAX / 4.0)
-        || (T::DIGITS == 24 && staged.certain(face, F32_FACTOR));
-    if plain {
+    if staged.lattice {
+        let [p, q] = [0, 1].map(|i| staged.values[i].g[face as usize].abs());
         return Step::new(p, q, &staged.segment);
     }
-    if staged.certain(face, 1.0) {
+    // Near and far of the identity pose are exact up to one rounding, unless
+    // they overflow.
+    let depth = matches!(face, Face::Near | Face::Far)
+        && staged.filter().identity
+        && staged
+            .values
+            .iter()
+            .all(|v| v.g[face as usize].abs() < f64::MAX / 4.0);
+    if depth || staged.certain(face, 1.0) {
         let filter = staged.filter();
-        let value = |p| filter.precise(face, p).hi.abs();
-        let Segment { start, end } = staged.segment;
-        return Step::new(value(start), value(end), &staged.segment);
+        return certain_step::<T>(filter, &staged.segment, &staged.values, face as usize);
     }
     exact_step(staged, face)
+}
+
+/// The same for a face (by number) whose values' signs the filter settles.
+#[inline(always)]
+pub(super) fn certain_step<T: Real>(
+    filter: &Filter,
+    segment: &Segment<f64>,
+    values: &[Values; 2],
+    face: usize,
+) -> Step {
+    if T::DIGITS == 24 {
+        let [p, q] = values.each_ref().map(|v| v.g[face]);
+        let far = |g: f64, v: &Values| {
+            let side = filter.side_threshold(v.size);
+            let depth = filter.depth_threshold(v.size);
+            g.abs() > F32_FACTOR * if face < 2 { depth } else { side }
+        };
+        if far(p, &values[0]) && far(q, &values[1]) {
+            return Step::new(p.abs(), q.abs(), segment);
+        }
+    }
+    let (g, rest) = filter.precise.values(face, segment.start, segment.end);
+    let Two([a, b]) = g + rest;
+    Step::new(a.abs(), b.abs(), segment)
 }
 
 #[cold]
@@ -170,10 +204,14 @@ fn exact_step(staged: &mut Staged<'_>, face: Face) -> Step {
     }
     let [a, b] = staged.integers(face).map(Dyadic::abs);
     let order = sum(&a, &b.clone().neg()).sign();
-    let least = if order == Ordering::Greater { &b } else { &a };
+    let from = match order {
+        Ordering::Less => 0,
+        Ordering::Equal => lesser(&staged.segment),
+        Ordering::Greater => 1,
+    };
     Step {
-        from: nearer(Some(order), &staged.segment),
-        tau: least.round_quotient(&sum(&a, &b)),
+        from,
+        tau: [&a, &b][from].round_quotient(&sum(&a, &b)),
     }
 }
 
@@ -181,40 +219,46 @@ fn sum(a: &Dyadic, b: &Dyadic) -> Dyadic {
     a.add(b).unwrap_or_else(|| a.clone())
 }
 
-#[inline]
 fn fast<T: Real>(staged: &mut Staged<'_>, face: Face, faces: FaceSet) -> (T, Vec3<T>) {
-    let Step { from, tau } = step::<T>(staged, face);
-    let Segment { start, end } = staged.segment;
-    let (a, b, t) = match from {
-        End::Start => (start, end, tau),
-        End::End => (end, start, 1.0 - tau),
+    let step = step::<T>(staged, face);
+    place(staged.filter(), &staged.segment, step, faces)
+}
+
+/// Parameter and point of a step.
+#[inline(always)]
+pub(super) fn place<T: Real>(
+    filter: &Filter,
+    segment: &Segment<f64>,
+    Step { from, tau }: Step,
+    faces: FaceSet,
+) -> (T, Vec3<T>) {
+    let Segment { start, end } = *segment;
+    let (base, tau, t) = if from == 0 {
+        (start, tau, tau)
+    } else {
+        (end, -tau, 1.0 - tau)
     };
-    let mut point = Vec3::new(
-        between(a.x, b.x, tau),
-        between(a.y, b.y, tau),
-        between(a.z, b.z, tau),
-    );
-    if staged.filter().identity {
+    let difference = end - start;
+    let mut point = base + difference * tau;
+    if !(point.x + point.y + point.z).is_finite() {
+        point = huge(segment, base, tau);
+    }
+    if filter.identity {
         // The exact hit has exactly this coordinate.
-        let shape = staged.frustum.shape();
         if faces.contains(Face::Near) {
-            point.z = shape.near().z;
+            point.z = filter.near;
         } else if faces.contains(Face::Far) {
-            point.z = shape.far().map_or(point.z, |far| far.z);
+            point.z = filter.far;
         }
     }
     (T::from_f64(t), Vec3::from_f64(point))
 }
 
-/// `a + tau (b - a)`.
-#[inline(always)]
-fn between(a: f64, b: f64, tau: f64) -> f64 {
-    let difference = b - a;
-    if difference.is_finite() {
-        a + tau * difference
-    } else {
-        2.0 * (0.5 * a + tau * (0.5 * b - 0.5 * a))
-    }
+/// Where the difference of the ends overflows, or the sum of the coordinates.
+#[cold]
+fn huge(segment: &Segment<f64>, base: Vec3<f64>, tau: f64) -> Vec3<f64> {
+    let halves = segment.end * 0.5 - segment.start * 0.5;
+    (base * 0.5 + halves * tau) * 2.0
 }
 
 /// Correctly rounded parameter and point.
@@ -234,8 +278,8 @@ const DD_ERROR: f64 = 1.5777218104420236e-30;
 fn nearest_double_double<T: Real>(staged: &Staged<'_>, face: Face) -> Option<(T, Vec3<T>)> {
     let filter = staged.filter();
     let Segment { start, end } = staged.segment;
-    let a = filter.precise(face, start).abs();
-    let b = filter.precise(face, end).abs();
+    let (g, rest) = filter.precise.values(face as usize, start, end);
+    let [a, b] = [0, 1].map(|i| Dd::new(g.0[i], rest.0[i]).normal().abs());
     let total = a.add(b);
     let from_start = a.hi <= b.hi;
     let tau = if from_start { a } else { b }.div(total);

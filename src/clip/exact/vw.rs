@@ -25,9 +25,9 @@ use super::points;
 use super::staged::Staged;
 use crate::clip::predicates::{Predicates, Span};
 use crate::clip::{Accuracy, Class, Part, PartEnd, SegmentClip, StageCounts};
-use crate::frustum::filter::{Filter, Values};
+use crate::frustum::filter::{FLOOR, Filter, Values};
 use crate::frustum::{Face, FaceSet, Form, Frustum, General, Layout, Orthographic, Symmetric};
-use crate::math::{End, NonFinite, Real, Segment};
+use crate::math::{End, NonFinite, Real, Segment, Vec3};
 use std::cmp::Ordering;
 
 /// 2^-50.
@@ -66,10 +66,15 @@ fn clip_in<T: Real, L: Layout>(
     match certify(filter, &p, &q) {
         Certificate::Outside => Ok(SegmentClip::OUTSIDE),
         Certificate::Inside => Ok(inside(segment)),
-        Certificate::Cross(span) => {
+        Certificate::Cross(entered, left) if accuracy == Accuracy::Fast => {
+            Ok(fast(filter, segment, &wide, &[p, q], [entered, left]))
+        }
+        Certificate::Cross(entered, left) => {
             let mut staged = Staged::with(frustum, wide, [p, q], false);
-            let decision = crossing(span);
-            Ok(points::build(&mut staged, segment, &decision, accuracy))
+            let decision = crossing([entered, left]);
+            let result = points::build(&mut staged, segment, &decision, accuracy);
+            staged.add_to(counts);
+            Ok(result)
         }
         Certificate::None => super::clip(frustum, segment, accuracy, counts, |s| span(s)),
     }
@@ -79,7 +84,8 @@ fn clip_in<T: Real, L: Layout>(
 enum Certificate {
     Outside,
     Inside,
-    Cross(Span),
+    /// Crosses one face at each end that is clipped.
+    Cross(FaceSet, FaceSet),
     /// Nothing.
     None,
 }
@@ -92,27 +98,31 @@ fn certify(filter: &Filter, p: &Values, q: &Values) -> Certificate {
     }
     // Thresholds grow with the size, so these serve both ends.
     let side = filter.side_threshold(size);
+    // With the identity pose near and far values are differences of two
+    // doubles: relative error u, and all that counts is that their reciprocals
+    // are finite.
     let depth = if filter.identity {
-        0.0
+        FLOOR
     } else {
         filter.depth_threshold(size)
     };
     let (a, b) = (&p.g, &q.g);
-    let greater = |i: usize| a[i].max(b[i]);
-    if greater(0).min(greater(1)) < -depth
-        || greater(2).min(greater(3)) < -side
-        || greater(4).min(greater(5)) < -side
+    let greater = |i: usize| max(a[i], b[i]);
+    if min(greater(0), greater(1)) < -depth
+        || min(greater(2), greater(3)) < -side
+        || min(greater(4), greater(5)) < -side
     {
         return Certificate::Outside;
     }
-    let least = |g: &[f64; 6]| (g[0].min(g[1]), g[2].min(g[3]).min(g[4].min(g[5])));
-    let ((da, sa), (db, sb)) = (least(a), least(b));
-    if da.min(db) > depth && sa.min(sb) > side {
+    let lesser = |i: usize| min(a[i], b[i]);
+    let least_depth = min(lesser(0), lesser(1));
+    let least_side = min(min(lesser(2), lesser(3)), min(lesser(4), lesser(5)));
+    if least_depth > depth && least_side > side {
         return Certificate::Inside;
     }
-    let nearest = |i: usize| a[i].abs().min(b[i].abs());
-    let sure = nearest(0).min(nearest(1)) > depth
-        && nearest(2).min(nearest(3)).min(nearest(4).min(nearest(5))) > side;
+    let nearest = |i: usize| min(a[i].abs(), b[i].abs());
+    let sure = min(nearest(0), nearest(1)) > depth
+        && min(min(nearest(2), nearest(3)), min(nearest(4), nearest(5))) > side;
     if sure {
         certify_crossing(a, b, depth, side)
     } else {
@@ -120,61 +130,134 @@ fn certify(filter: &Filter, p: &Values, q: &Values) -> Certificate {
     }
 }
 
-/// For values of certain sign, some of them negative.
+/// For values of certain sign, some of them negative. Selects, not branches:
+/// which faces are crossed cannot be predicted.
 #[inline(always)]
 fn certify_crossing(a: &[f64; 6], b: &[f64; 6], depth: f64, side: f64) -> Certificate {
-    let error = [depth, depth, side, side, side, side];
-    // Bounds of the parameters of entering and leaving faces; faces that are
-    // not crossed stand where they change nothing.
-    let mut enter = [[-1.0; 6]; 2];
-    let mut leave = [[2.0; 6]; 2];
+    // Parameters of entering and leaving faces; faces that are not crossed
+    // stand where they change nothing.
+    let (mut enter, mut leave, mut scales) = ([0.0; 6], [0.0; 6], [0.0; 6]);
     for i in 0..6 {
         let scale = 1.0 / (a[i] - b[i]);
         let t = a[i] * scale;
-        let d = error[i] * scale.abs() + ROUNDING;
-        if a[i] < 0.0 {
-            enter[0][i] = t - d;
-            enter[1][i] = t + d;
-        }
-        if b[i] < 0.0 {
-            leave[0][i] = t - d;
-            leave[1][i] = t + d;
-        }
+        enter[i] = where_negative(a[i], t, -1.0);
+        leave[i] = where_negative(b[i], t, 2.0);
+        scales[i] = where_negative(a[i] * b[i], scale.abs(), 0.0);
     }
-    let greatest = |v: &[f64; 6]| v[0].max(v[1]).max(v[2].max(v[3])).max(v[4].max(v[5]));
-    let least = |v: &[f64; 6]| v[0].min(v[1]).min(v[2].min(v[3])).min(v[4].min(v[5]));
-    let last_enter = greatest(&enter[0]);
-    let first_leave = least(&leave[1]);
-    if last_enter > first_leave {
+    let depth_scale = max(scales[0], scales[1]);
+    let side_scale = max(max(scales[2], scales[3]), max(scales[4], scales[5]));
+    // What two parameters can be off, together.
+    let error = 2.0 * (max(depth * depth_scale, side * side_scale) + ROUNDING);
+    let last_enter = greatest(&enter);
+    let first_leave = least(&leave);
+    if last_enter > first_leave + error {
         return Certificate::Outside;
     }
     let (mut entered, mut left) = (0_u8, 0_u8);
     for i in 0..6 {
-        entered |= u8::from((enter[1][i] >= last_enter) & (a[i] < 0.0)) << i;
-        left |= u8::from((leave[0][i] <= first_leave) & (b[i] < 0.0)) << i;
+        entered |= u8::from(enter[i] >= last_enter - error) << i;
+        left |= u8::from(leave[i] <= first_leave + error) << i;
     }
-    let apart = greatest(&enter[1]) < least(&leave[0]);
-    let (entered, left) = (FaceSet::from_bits(entered), FaceSet::from_bits(left));
-    if apart && entered.len() <= 1 && left.len() <= 1 {
-        Certificate::Cross(Span {
-            enter: entered.first(),
-            leave: left.first(),
-        })
+    // With none crossed, all stand at -1 or 2.
+    let entered = if last_enter < -0.5 { 0 } else { entered };
+    let left = if first_leave > 1.5 { 0 } else { left };
+    let apart = last_enter + error < first_leave;
+    let single = |set: u8| set & set.wrapping_sub(1) == 0;
+    if apart & single(entered) & single(left) {
+        Certificate::Cross(FaceSet::from_bits(entered), FaceSet::from_bits(left))
     } else {
         Certificate::None
     }
 }
 
-/// The decision for certain crossings: nothing on a face, no ties.
+/// `then` where the sign bit of `v` is set, else `other`; no branch.
 #[inline(always)]
-fn crossing(span: Span) -> Decision {
+fn where_negative(v: f64, then: f64, other: f64) -> f64 {
+    let mask = (v.to_bits().cast_signed() >> 63).cast_unsigned();
+    f64::from_bits((then.to_bits() & mask) | (other.to_bits() & !mask))
+}
+
+#[inline(always)]
+fn max(a: f64, b: f64) -> f64 {
+    if a > b { a } else { b }
+}
+
+#[inline(always)]
+fn min(a: f64, b: f64) -> f64 {
+    if a < b { a } else { b }
+}
+
+#[inline(always)]
+fn greatest(v: &[f64; 6]) -> f64 {
+    max(max(max(v[0], v[1]), max(v[2], v[3])), max(v[4], v[5]))
+}
+
+#[inline(always)]
+fn least(v: &[f64; 6]) -> f64 {
+    min(min(min(v[0], v[1]), min(v[2], v[3])), min(v[4], v[5]))
+}
+
+/// The faces of a certain crossing, one at each clipped end: nothing is on a
+/// face, and there are no ties.
+#[inline(always)]
+fn fast<T: Real>(
+    filter: &Filter,
+    segment: &Segment<T>,
+    wide: &Segment<f64>,
+    values: &[Values; 2],
+    [entered, left]: [FaceSet; 2],
+) -> SegmentClip<T> {
+    let entry = fast_end(filter, (T::ZERO, segment.start), wide, values, entered);
+    let mut exit = fast_end(filter, (T::ONE, segment.end), wide, values, left);
+    if exit.t < entry.t {
+        exit.t = entry.t;
+    }
+    SegmentClip {
+        class: Class::Cross,
+        part: Some(Part {
+            entry,
+            exit,
+            coplanar: FaceSet::EMPTY,
+        }),
+    }
+}
+
+#[inline(always)]
+fn fast_end<T: Real>(
+    filter: &Filter,
+    own: (T, Vec3<T>),
+    wide: &Segment<f64>,
+    values: &[Values; 2],
+    faces: FaceSet,
+) -> PartEnd<T> {
+    let clipped = !faces.is_empty();
+    let (t, point) = if clipped {
+        let face = faces.bits().trailing_zeros() as usize;
+        let step = points::certain_step::<T>(filter, wide, values, face);
+        points::place(filter, wide, step, faces)
+    } else {
+        own
+    };
+    PartEnd {
+        t,
+        point,
+        clipped,
+        faces,
+        inward: !clipped,
+    }
+}
+
+/// The decision for certain crossings: nothing on a face, no ties.
+fn crossing(faces: [FaceSet; 2]) -> Decision {
     let at = |face: Option<Face>, end| face.map_or(At::End(end), At::Crossing);
-    let faces = |face: Option<Face>| face.map_or(FaceSet::EMPTY, FaceSet::from);
     Decision {
         class: Class::Cross,
-        at: [at(span.enter, End::Start), at(span.leave, End::End)],
-        clipped: [span.enter.is_some(), span.leave.is_some()],
-        faces: [faces(span.enter), faces(span.leave)],
+        at: [
+            at(faces[0].first(), End::Start),
+            at(faces[1].first(), End::End),
+        ],
+        clipped: faces.map(|set| !set.is_empty()),
+        faces,
         coplanar: FaceSet::EMPTY,
     }
 }
