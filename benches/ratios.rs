@@ -7,11 +7,12 @@
 
 mod mixes;
 
+use frusta::samples::Placement;
 use frusta::{
     Accuracy, CohenSutherland, CyrusBeck, Frustum, LiangBarsky, LiangBarskyVariant, Pose, Real,
     Segment, SegmentClipper, SixPlanes, VwProjection,
 };
-use mixes::{Form, Mix, assert_answers_agree, frustum, poses};
+use mixes::{Form, Mix, assert_answers_agree, frustum, poses, samples, wrong_answers};
 use std::hint::black_box;
 use std::time::Instant;
 
@@ -78,22 +79,56 @@ fn take_turns(passes: &[Pass<'_>], rounds: usize) -> Vec<(f64, f64)> {
     medians.map(|(t, r)| (median(t), median(r))).collect()
 }
 
+fn heading(names: &[&str]) {
+    print!("{:14} {:>5} {:>5} {:>5}", "", "out", "in", "cross");
+    names.iter().for_each(|name| print!(" {name:>14}"));
+    println!();
+}
+
+fn row(turns: &[(f64, f64)]) {
+    for (time, ratio) in turns {
+        print!(" {time:6.1} ({ratio:5.2})");
+    }
+    println!();
+}
+
 fn table<T: Real>(scalar: &str, form: Form, (place, pose): (&str, Pose), rounds: usize) {
     println!("\n{scalar}, {}, in the {place}", form.name());
     let frustum = frustum(form.shape(), &pose);
-    for (row, mix) in Mix::ALL.into_iter().enumerate() {
+    for mix in Mix::ALL {
         let segments = mix.segments::<T>(&pose);
-        let classes = assert_answers_agree(&frustum, &segments);
+        let [out, _, _, inside, cross] = assert_answers_agree(&frustum, &segments);
         let (names, passes): (Vec<_>, Vec<_>) = clippers(&frustum, &segments).into_iter().unzip();
-        if row == 0 {
-            print!("{:14} {:>5} {:>5} {:>5}", "", "out", "in", "cross");
-            names.iter().for_each(|name| print!(" {name:>14}"));
-            println!();
+        if mix == Mix::ALL[0] {
+            heading(&names);
         }
-        let [out, _, _, inside, cross] = classes;
         print!("{:14} {out:5} {inside:5} {cross:5}", mix.name());
-        for (time, ratio) in take_turns(&passes, rounds) {
-            print!(" {time:6.1} ({ratio:5.2})");
+        row(&take_turns(&passes, rounds));
+    }
+}
+
+/// The 78 singular samples: here plain answers may be wrong, so they are
+/// counted instead.
+fn singular(rounds: usize) {
+    for (place, placement) in [
+        ("frame", Placement::IDENTITY),
+        ("world", Placement::rotated([1, 2, 2, 4])),
+    ] {
+        println!("\nf64, the 78 singular samples, in the {place}");
+        let (frustum, segments) = samples::<f64>(&placement);
+        let (names, passes): (Vec<_>, Vec<_>) = clippers(&frustum, &segments).into_iter().unzip();
+        heading(&names);
+        print!("{:32}", "");
+        row(&take_turns(&passes, rounds));
+        print!("{:32}", "wrong of 4096");
+        for (name, wrong) in wrong_answers(&frustum, &segments) {
+            let parametric = !matches!(name, "cohen-sutherland" | "six-planes");
+            // In the frame all boundary values are exact.
+            assert!(
+                place == "world" || !parametric || wrong == 0,
+                "{name}: {wrong}"
+            );
+            print!(" {wrong:14}");
         }
         println!();
     }
@@ -133,5 +168,6 @@ fn main() {
     for form in &Form::ALL[1..] {
         table::<f64>("f64", *form, poses()[0], rounds);
     }
+    singular(rounds);
     forms(rounds);
 }

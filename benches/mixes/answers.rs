@@ -17,26 +17,47 @@ fn decided<T: Real>(clip: &SegmentClip<T>) -> (Class, [bool; 2], [FaceSet; 3]) {
     }
 }
 
+/// All algorithms in plain arithmetic.
+fn plain<T: Real>() -> [Box<dyn SegmentClipper<T>>; 6] {
+    [
+        Box::new(LiangBarsky::plain(LiangBarskyVariant::Textbook)),
+        Box::new(LiangBarsky::plain(LiangBarskyVariant::Tuned)),
+        Box::new(VwProjection::plain()),
+        Box::new(CyrusBeck::plain()),
+        Box::new(CohenSutherland::plain()),
+        Box::new(SixPlanes::plain()),
+    ]
+}
+
+/// How many segments each plain algorithm gets wrong: class, clipped flags or
+/// face sets.
+pub(crate) fn wrong_answers<T: Real>(
+    frustum: &Frustum,
+    segments: &[Segment<T>],
+) -> [(&'static str, usize); 6] {
+    let exact = VwProjection::default();
+    plain::<T>().map(|clipper| {
+        let is_wrong = |s: &&Segment<T>| {
+            let found = clipper.clip_segment(frustum, s).expect("finite");
+            decided(&found) != decided(&exact.clip_segment(frustum, s).expect("finite"))
+        };
+        (clipper.name(), segments.iter().filter(is_wrong).count())
+    })
+}
+
 /// Asserts that all algorithms, plain, decide as the exact tier does, and that
 /// their points are within the tolerance; counts the classes.
 pub(crate) fn assert_answers_agree<T: Real>(
     frustum: &Frustum,
     segments: &[Segment<T>],
 ) -> [usize; 5] {
-    let clippers: [&dyn SegmentClipper<T>; 6] = [
-        &VwProjection::plain(),
-        &LiangBarsky::plain(LiangBarskyVariant::Textbook),
-        &LiangBarsky::plain(LiangBarskyVariant::Tuned),
-        &SixPlanes::plain(),
-        &CyrusBeck::plain(),
-        &CohenSutherland::plain(),
-    ];
+    let clippers = plain::<T>();
     let exact = VwProjection::exact(Accuracy::Nearest);
     let mut classes = [0; 5];
     for s in segments {
         let expected = exact.clip_segment(frustum, s).expect("finite");
         classes[expected.class as usize] += 1;
-        for clipper in clippers {
+        for clipper in &clippers {
             let found = clipper.clip_segment(frustum, s).expect("finite");
             let name = clipper.name();
             assert_eq!(decided(&found), decided(&expected), "{name} on {s:?}");

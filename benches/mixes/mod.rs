@@ -2,43 +2,22 @@
 
 mod answers;
 
-pub(crate) use answers::assert_answers_agree;
+pub(crate) use answers::{assert_answers_agree, wrong_answers};
 
+use frusta::samples::{Placement, Random, Solid, singular_samples};
 use frusta::{Direction, EndRect, Frustum, Pose, Real, Rect, Segment, Shape, Vec3};
 
 /// Segments in one mix: more than branch predictors learn by heart.
 pub(crate) const COUNT: usize = 4096;
 
-/// A small generator of numbers (SplitMix64), so that no crate's update changes
-/// what is timed.
-struct Rng(u64);
-
-impl Rng {
-    fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    }
-
-    fn between(&mut self, low: f64, high: f64) -> f64 {
-        let unit = (self.next() >> 11) as f64 / (1u64 << 53) as f64;
-        low + unit * (high - low)
-    }
-
-    /// A vector of this length in a random direction.
-    fn direction(&mut self, length: f64) -> Vec3<f64> {
-        loop {
-            let v = Vec3::new(
-                self.between(-1.0, 1.0),
-                self.between(-1.0, 1.0),
-                self.between(-1.0, 1.0),
-            );
-            let square = v.dot(v);
-            if (0.01..=1.0).contains(&square) {
-                return v * (length / square.sqrt());
-            }
+/// A vector of this length in a random direction.
+fn direction(random: &mut Random, length: f64) -> Vec3<f64> {
+    loop {
+        let mut c = || random.between(-1.0, 1.0);
+        let v = Vec3::new(c(), c(), c());
+        let square = v.dot(v);
+        if (0.01..=1.0).contains(&square) {
+            return v * (length / square.sqrt());
         }
     }
 }
@@ -188,11 +167,11 @@ impl Mix {
 
     /// The segments, carried from the frame to the world of the pose.
     pub(crate) fn segments<T: Real>(self, pose: &Pose) -> Vec<Segment<T>> {
-        let mut rng = Rng(0x5eed_0000 + self as u64);
+        let mut random = Random::new(&[self as u64]);
         let to_world = |v| Vec3::from_f64(pose.to_world(v));
         (0..COUNT)
             .map(|_| {
-                let s = segment(&mut rng, self);
+                let s = segment(&mut random, self);
                 Segment::new(to_world(s.start), to_world(s.end))
             })
             .collect()
@@ -200,38 +179,58 @@ impl Mix {
 }
 
 /// A point of the frustum grown about its middle, even in depth.
-fn near_point(rng: &mut Rng, grown: f64) -> Vec3<f64> {
+fn near_point(random: &mut Random, grown: f64) -> Vec3<f64> {
     let middle = 0.5 * (NEAR + FAR);
-    let depth = middle + grown * (rng.between(NEAR, FAR) - middle);
+    let depth = middle + grown * (random.between(NEAR, FAR) - middle);
     let (x, y) = (TAN_X * depth * grown, TAN_Y * depth * grown);
-    Vec3::new(rng.between(-x, x), rng.between(-y, y), -depth)
+    Vec3::new(random.between(-x, x), random.between(-y, y), -depth)
 }
 
 /// One segment of a mix, in the frame.
-fn segment(rng: &mut Rng, mix: Mix) -> Segment<f64> {
+fn segment(random: &mut Random, mix: Mix) -> Segment<f64> {
     let (p, length) = match mix {
         Mix::MostlyOut => {
             let all = 1.5 * FAR;
             let p = Vec3::new(
-                rng.between(-all, all),
-                rng.between(-all, all),
-                rng.between(-all, all),
+                random.between(-all, all),
+                random.between(-all, all),
+                random.between(-all, all),
             );
-            (p, rng.between(1.0, 40.0))
+            (p, random.between(1.0, 40.0))
         }
-        Mix::Mixed => (near_point(rng, 1.25), rng.between(1.0, 60.0)),
-        Mix::MostlyIn => (near_point(rng, 0.98), rng.between(0.5, 8.0)),
+        Mix::Mixed => (near_point(random, 1.25), random.between(1.0, 60.0)),
+        Mix::MostlyIn => (near_point(random, 0.98), random.between(0.5, 8.0)),
         Mix::LongCrossing => {
-            let p = near_point(rng, 1.05);
-            let d = rng.direction(1.0);
-            let (back, forth) = (rng.between(200.0, 900.0), rng.between(200.0, 900.0));
+            let p = near_point(random, 1.05);
+            let d = direction(random, 1.0);
+            let (back, forth) = (random.between(200.0, 900.0), random.between(200.0, 900.0));
             return Segment::new(p - d * back, p + d * forth);
         }
     };
-    Segment::new(p, p + rng.direction(length))
+    Segment::new(p, p + direction(random, length))
 }
 
 /// The frustum of a shape at a pose.
 pub(crate) fn frustum(shape: Shape, pose: &Pose) -> Frustum {
     Frustum::new(*pose, shape).expect("the benchmarks' frusta are valid")
+}
+
+/// The 78 singular samples, at a placement: the frustum, and as many segments
+/// as in a mix, drawn at random, so that no branch predictor learns their order.
+pub(crate) fn samples<T: Real>(placement: &Placement) -> (Frustum, Vec<Segment<T>>) {
+    let solid = Solid::SYMMETRIC;
+    let all: Vec<Segment<T>> = singular_samples(&solid)
+        .iter()
+        .map(|sample| {
+            let s = placement.segment(&sample.segment);
+            Segment::new(Vec3::from_f64(s.start), Vec3::from_f64(s.end))
+        })
+        .collect();
+    assert_eq!(all.len(), 78);
+    let mut random = Random::new(&[78]);
+    let drawn = (0..COUNT).map(|_| random.pick(&all)).collect();
+    let frustum = placement
+        .place(&solid)
+        .expect("the samples' frusta are valid");
+    (frustum, drawn)
 }
