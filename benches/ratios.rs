@@ -3,6 +3,8 @@
 //! `cargo bench --bench ratios [-- ROUNDS]`. On a machine that others use, too,
 //! times drift within seconds; ratios drift less. So the clippers take turns,
 //! a ratio is taken within each round, and medians over the rounds are printed.
+//! Turns also keep branch predictors from learning the segments by heart, as
+//! they do if one clipper is timed over and over, which flatters branches.
 //! Answers are compared first.
 
 mod mixes;

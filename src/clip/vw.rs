@@ -85,6 +85,9 @@ impl<T: Real> SegmentClipper<T> for VwProjection {
     }
 }
 
+/// The far face's bit.
+const FAR: u8 = 1 << Face::Far as u8;
+
 struct Plain;
 
 impl InFrame for Plain {
@@ -94,6 +97,9 @@ impl InFrame for Plain {
         let p = f.to_frame(segment.start);
         let q = f.to_frame(segment.end);
         let ([wp, fp], [wq, fq]) = (f.depths::<L>(p.z), f.depths::<L>(q.z));
+        // Where there is no far face its lane repeats the near one: constants
+        // there would keep the compiler from pairing the divisions.
+        let (fp, fq) = if L::FAR { (fp, fq) } else { (wp, wq) };
         let [lp, rp] = f.sides::<L>(0, wp, p.x);
         let [lq, rq] = f.sides::<L>(0, wq, q.x);
         let v = min(min(max(wp, wq), max(fp, fq)), min(max(lp, lq), max(rp, rq)));
@@ -117,7 +123,7 @@ impl InFrame for Plain {
         } else {
             both_zero(&values)
         };
-        cross(values, [least_p < zero, least_q < zero], coplanar, segment)
+        cross::<T, L>(values, [least_p < zero, least_q < zero], coplanar, segment)
     }
 }
 
@@ -132,7 +138,7 @@ fn both_zero<T: Real>([a, b]: &[[T; 6]; 2]) -> FaceSet {
 
 /// For six values at each end: clips where they change sign.
 #[inline(always)]
-fn cross<T: Real>(
+fn cross<T: Real, L: Layout>(
     [a, b]: [[T; 6]; 2],
     clipped: [bool; 2],
     coplanar: FaceSet,
@@ -164,11 +170,12 @@ fn cross<T: Real>(
         entered |= u8::from(enter[i] >= t0) << i;
         left |= u8::from(leave[i] <= t1) << i;
     }
+    let there = |bits| FaceSet::from_bits(if L::FAR { bits } else { bits & !FAR });
     Found {
         t: [t0, t1],
         clipped,
-        faces: [FaceSet::from_bits(entered), FaceSet::from_bits(left)],
-        coplanar,
+        faces: [there(entered), there(left)],
+        coplanar: there(coplanar.bits()),
     }
     .build(segment)
 }
