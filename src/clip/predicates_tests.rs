@@ -99,9 +99,12 @@ impl Trapezoids {
     }
 
     fn mock(&self, p: [i128; 3], q: [i128; 3]) -> Mock {
-        const FIVE: [Face; 5] = [Face::Near, Face::Left, Face::Right, Face::Bottom, Face::Top];
         Mock {
-            faces: if self.finite { &Face::ALL } else { &FIVE },
+            faces: if self.finite {
+                &Face::ALL
+            } else {
+                &Face::WITHOUT_FAR
+            },
             values: [self.values(p), self.values(q)],
         }
     }

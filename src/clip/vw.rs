@@ -23,7 +23,9 @@
 //! 2. In plain arithmetic the intervals of V and W are one interval over six
 //!    faces, and all six divisions are done, two at a time, with selections
 //!    instead of branches: most of the time of a textbook clipper is spent on
-//!    mispredicted branches. W is still skipped where V rejects.
+//!    mispredicted branches. W is still skipped where V rejects, and coplanar
+//!    faces, which are rare, are looked for only where the larger of some
+//!    face's two values is zero.
 //!
 //! # Complexity
 //! Constant: 12 values at most, 6 divisions, none if rejected or accepted.
@@ -37,7 +39,7 @@
 use super::plain::{self, Found, InFrame, max, min};
 use super::result::{Accuracy, Arithmetic, SegmentClip, StageCounts};
 use super::{SegmentClipper, exact};
-use crate::frustum::{FaceSet, Frustum, Layout, PlainFrustum};
+use crate::frustum::{Face, FaceSet, Frustum, Layout, PlainFrustum};
 use crate::math::{NonFinite, Real, Segment};
 
 /// Clips by projection on two planes ("V/W").
@@ -83,6 +85,9 @@ impl<T: Real> SegmentClipper<T> for VwProjection {
     }
 }
 
+/// The far face's bit.
+const FAR: u8 = 1 << Face::Far as u8;
+
 /// V/W in plain arithmetic, for a frustum's form.
 pub(super) struct Plain;
 
@@ -93,6 +98,9 @@ impl InFrame for Plain {
         let p = f.to_frame(segment.start);
         let q = f.to_frame(segment.end);
         let ([wp, fp], [wq, fq]) = (f.depths::<L>(p.z), f.depths::<L>(q.z));
+        // Where there is no far face its lane repeats the near one: constants
+        // there would keep the compiler from pairing the divisions.
+        let (fp, fq) = if L::FAR { (fp, fq) } else { (wp, wq) };
         let [lp, rp] = f.sides::<L>(0, wp, p.x);
         let [lq, rq] = f.sides::<L>(0, wq, q.x);
         let v = min(min(max(wp, wq), max(fp, fq)), min(max(lp, lq), max(rp, rq)));
@@ -101,7 +109,8 @@ impl InFrame for Plain {
         }
         let [bp, tp] = f.sides::<L>(2, wp, p.y);
         let [bq, tq] = f.sides::<L>(2, wq, q.y);
-        if min(max(bp, bq), max(tp, tq)) < zero {
+        let w = min(max(bp, bq), max(tp, tq));
+        if w < zero {
             return plain::outside();
         }
         let least_p = min(min(min(wp, fp), min(lp, rp)), min(bp, tp));
@@ -110,40 +119,64 @@ impl InFrame for Plain {
             return plain::inside(segment);
         }
         let values = [[wp, fp, lp, rp, bp, tp], [wq, fq, lq, rq, bq, tq]];
-        cross(values, [least_p < zero, least_q < zero], segment)
+        let coplanar = if min(v, w) > zero {
+            FaceSet::EMPTY
+        } else {
+            both_zero(&values)
+        };
+        cross::<T, L>(values, [least_p < zero, least_q < zero], coplanar, segment)
     }
+}
+
+/// The faces with two zero values.
+#[cold]
+#[inline(never)]
+fn both_zero<T: Real>([a, b]: &[[T; 6]; 2]) -> FaceSet {
+    let zero = T::ZERO;
+    let on = |face: &Face| a[*face as usize] == zero && b[*face as usize] == zero;
+    Face::ALL.into_iter().filter(on).collect()
 }
 
 /// For six values at each end: clips where they change sign.
 #[inline(always)]
-fn cross<T: Real>([a, b]: [[T; 6]; 2], clipped: [bool; 2], segment: &Segment<T>) -> SegmentClip<T> {
-    let mut enter = [-T::ONE; 6];
-    let mut leave = [T::ONE + T::ONE; 6];
-    // Two lanes, so that the compiler may pair the divisions; the running
-    // bounds come second, so that 0/0 is passed over.
-    let (mut last, mut first) = ([T::ZERO; 2], [T::ONE; 2]);
+fn cross<T: Real, L: Layout>(
+    [a, b]: [[T; 6]; 2],
+    clipped: [bool; 2],
+    coplanar: FaceSet,
+    segment: &Segment<T>,
+) -> SegmentClip<T> {
+    let two = T::ONE + T::ONE;
+    let (mut enter, mut leave) = ([-T::ONE; 6], [two; 6]);
     for i in 0..6 {
         let t = a[i] / (a[i] - b[i]);
-        enter[i] = if a[i] > T::ZERO { enter[i] } else { t };
-        leave[i] = if b[i] > T::ZERO { leave[i] } else { t };
-        last[i % 2] = max(enter[i], last[i % 2]);
-        first[i % 2] = min(leave[i], first[i % 2]);
+        // A face that is not crossed stands where it changes nothing; so does
+        // 0/0.
+        enter[i] = max(if a[i] > T::ZERO { -T::ONE } else { t }, -T::ONE);
+        leave[i] = min(if b[i] > T::ZERO { two } else { t }, two);
     }
-    let (t0, t1) = (max(last[0], last[1]), min(first[0], first[1]));
+    let (e, l) = (&enter, &leave);
+    let t0 = max(
+        max(max(e[0], e[1]), max(e[2], e[3])),
+        max(max(e[4], e[5]), T::ZERO),
+    );
+    let t1 = min(
+        min(min(l[0], l[1]), min(l[2], l[3])),
+        min(min(l[4], l[5]), T::ONE),
+    );
     if t0 > t1 {
         return plain::outside();
     }
-    let (mut entered, mut left, mut coplanar) = (0_u8, 0_u8, 0_u8);
+    let (mut entered, mut left) = (0_u8, 0_u8);
     for i in 0..6 {
         entered |= u8::from(enter[i] >= t0) << i;
         left |= u8::from(leave[i] <= t1) << i;
-        coplanar |= u8::from((a[i] == T::ZERO) & (b[i] == T::ZERO)) << i;
     }
+    let there = |bits| FaceSet::from_bits(if L::FAR { bits } else { bits & !FAR });
     Found {
         t: [t0, t1],
         clipped,
-        faces: [FaceSet::from_bits(entered), FaceSet::from_bits(left)],
-        coplanar: FaceSet::from_bits(coplanar),
+        faces: [there(entered), there(left)],
+        coplanar: there(coplanar.bits()),
     }
     .build(segment)
 }

@@ -31,6 +31,10 @@ impl Face {
         Face::Top,
     ];
 
+    /// The faces of an infinite frustum.
+    pub(crate) const WITHOUT_FAR: [Face; 5] =
+        [Face::Near, Face::Left, Face::Right, Face::Bottom, Face::Top];
+
     /// The face's name in lower case.
     pub const fn name(self) -> &'static str {
         ["near", "far", "left", "right", "bottom", "top"][self as usize]

@@ -73,10 +73,9 @@ impl Frustum {
     /// The faces there are, in the order of [`Face::ALL`]: six, or five for an
     /// infinite frustum.
     pub fn faces(&self) -> &'static [Face] {
-        const INFINITE: [Face; 5] = [Face::Near, Face::Left, Face::Right, Face::Bottom, Face::Top];
         match self.shape {
             Shape::Finite { .. } => &Face::ALL,
-            Shape::Infinite { .. } => &INFINITE,
+            Shape::Infinite { .. } => &Face::WITHOUT_FAR,
         }
     }
 

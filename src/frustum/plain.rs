@@ -184,13 +184,10 @@ impl<T: Real> PlainFrustum<T> {
     pub(crate) fn faces(&self) -> &'static [Face] {
         match self.form {
             Form::Symmetric | Form::General | Form::Orthographic => &Face::ALL,
-            Form::InfiniteSymmetric | Form::Infinite => &FINITE_FACES,
+            Form::InfiniteSymmetric | Form::Infinite => &Face::WITHOUT_FAR,
         }
     }
 }
-
-/// The faces of an infinite frustum.
-const FINITE_FACES: [Face; 5] = [Face::Near, Face::Left, Face::Right, Face::Bottom, Face::Top];
 
 /// The face's boundary value as a plane over frame coordinates.
 fn plane_in_frame(

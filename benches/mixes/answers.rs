@@ -1,0 +1,79 @@
+//! Before anything is timed: everybody gives the same answers.
+
+use frusta::{
+    Accuracy, Class, CohenSutherland, CyrusBeck, FaceSet, Frustum, LiangBarsky, LiangBarskyVariant,
+    Real, Segment, SegmentClip, SegmentClipper, SixPlanes, VwProjection,
+};
+
+/// Class, clipped flags and face sets.
+fn decided<T: Real>(clip: &SegmentClip<T>) -> (Class, [bool; 2], [FaceSet; 3]) {
+    match clip.part {
+        None => (clip.class, [false; 2], [FaceSet::EMPTY; 3]),
+        Some(p) => (
+            clip.class,
+            [p.entry.clipped, p.exit.clipped],
+            [p.entry.faces, p.exit.faces, p.coplanar],
+        ),
+    }
+}
+
+/// All algorithms in plain arithmetic.
+fn plain<T: Real>() -> [Box<dyn SegmentClipper<T>>; 6] {
+    [
+        Box::new(LiangBarsky::plain(LiangBarskyVariant::Textbook)),
+        Box::new(LiangBarsky::plain(LiangBarskyVariant::Tuned)),
+        Box::new(VwProjection::plain()),
+        Box::new(CyrusBeck::plain()),
+        Box::new(CohenSutherland::plain()),
+        Box::new(SixPlanes::plain()),
+    ]
+}
+
+/// How many segments each plain algorithm gets wrong: class, clipped flags or
+/// face sets.
+pub(crate) fn wrong_answers<T: Real>(
+    frustum: &Frustum,
+    segments: &[Segment<T>],
+) -> [(&'static str, usize); 6] {
+    let exact = VwProjection::default();
+    plain::<T>().map(|clipper| {
+        let is_wrong = |s: &&Segment<T>| {
+            let found = clipper.clip_segment(frustum, s).expect("finite");
+            decided(&found) != decided(&exact.clip_segment(frustum, s).expect("finite"))
+        };
+        (clipper.name(), segments.iter().filter(is_wrong).count())
+    })
+}
+
+/// Asserts that all algorithms, plain, decide as the exact tier does, and that
+/// their points are within the tolerance; counts the classes.
+pub(crate) fn assert_answers_agree<T: Real>(
+    frustum: &Frustum,
+    segments: &[Segment<T>],
+) -> [usize; 5] {
+    let clippers = plain::<T>();
+    let exact = VwProjection::exact(Accuracy::Nearest);
+    let mut classes = [0; 5];
+    for s in segments {
+        let expected = exact.clip_segment(frustum, s).expect("finite");
+        classes[expected.class as usize] += 1;
+        for clipper in &clippers {
+            let found = clipper.clip_segment(frustum, s).expect("finite");
+            let name = clipper.name();
+            assert_eq!(decided(&found), decided(&expected), "{name} on {s:?}");
+            let (Some(a), Some(b)) = (found.points(), expected.points()) else {
+                continue;
+            };
+            let [p, q] = [s.start, s.end].map(|v| v.to_f64());
+            let size = p.dot(p).max(q.dot(q)).sqrt();
+            for (a, b) in a.into_iter().zip(b) {
+                let error = a.to_f64() - b.to_f64();
+                // Rounded boundary values move a crossing along the segment by
+                // their error over the sine of the angle with the face.
+                let tolerance = 2e5 * T::UNIT_ROUNDOFF * size;
+                assert!(error.dot(error).sqrt() <= tolerance, "{name} on {s:?}");
+            }
+        }
+    }
+    classes
+}

@@ -1,0 +1,186 @@
+//! How fast the clippers are, as ratios to textbook Liang-Barsky.
+//!
+//! `cargo bench --bench ratios [-- ROUNDS]`. On a machine that others use, too,
+//! times drift within seconds; ratios drift less. So the clippers take turns,
+//! a ratio is taken within each round, and medians over the rounds are printed.
+//! Turns also keep branch predictors from learning the segments by heart, as
+//! they do if one clipper is timed over and over, which flatters branches.
+//! Answers are compared first.
+
+mod mixes;
+
+use frusta::samples::Placement;
+use frusta::{
+    Accuracy, CohenSutherland, CyrusBeck, Frustum, LiangBarsky, LiangBarskyVariant, NonFinite,
+    Pose, Real, Segment, SegmentClip, SegmentClipper, SixPlanes, VwProjection,
+};
+use mixes::{Form, Mix, assert_answers_agree, frustum, poses, samples, wrong_answers};
+use std::hint::black_box;
+use std::time::Instant;
+
+/// A call like any other: whether the compiler would inline an algorithm into
+/// the loop that times it says nothing about the algorithm.
+#[inline(never)]
+fn call<T: Real>(
+    clipper: &impl SegmentClipper<T>,
+    frustum: &Frustum,
+    segment: &Segment<T>,
+) -> Result<SegmentClip<T>, NonFinite> {
+    clipper.clip_segment(frustum, segment)
+}
+
+/// Times one pass over the segments, in nanoseconds each.
+fn pass<T: Real>(clipper: impl SegmentClipper<T>, frustum: &Frustum, all: &[Segment<T>]) -> f64 {
+    let start = Instant::now();
+    for segment in all {
+        let _ = black_box(&call(&clipper, frustum, segment));
+    }
+    start.elapsed().as_nanos() as f64 / all.len() as f64
+}
+
+type Pass<'a> = Box<dyn Fn() -> f64 + 'a>;
+
+/// The clippers that take turns; the first is what the others are compared with.
+fn clippers<'a, T: Real>(f: &'a Frustum, all: &'a [Segment<T>]) -> Vec<(&'static str, Pass<'a>)> {
+    use LiangBarskyVariant::{Textbook, Tuned};
+    vec![
+        (
+            "textbook",
+            Box::new(|| pass(LiangBarsky::plain(Textbook), f, all)),
+        ),
+        (
+            "tuned",
+            Box::new(|| pass(LiangBarsky::plain(Tuned), f, all)),
+        ),
+        ("vw", Box::new(|| pass(VwProjection::plain(), f, all))),
+        ("cyrus-beck", Box::new(|| pass(CyrusBeck::plain(), f, all))),
+        (
+            "cohen-s",
+            Box::new(|| pass(CohenSutherland::plain(), f, all)),
+        ),
+        ("six-planes", Box::new(|| pass(SixPlanes::plain(), f, all))),
+        (
+            "vw-exact",
+            Box::new(|| pass(VwProjection::exact(Accuracy::Fast), f, all)),
+        ),
+    ]
+}
+
+/// Median times, and median ratios of the first one's time to each.
+fn take_turns(passes: &[Pass<'_>], rounds: usize) -> Vec<(f64, f64)> {
+    let mut times = vec![Vec::new(); passes.len()];
+    let mut ratios = vec![Vec::new(); passes.len()];
+    for round in 0..rounds + 2 {
+        let mut now = vec![0.0; passes.len()];
+        for turn in 0..passes.len() {
+            let i = (round + turn) % passes.len();
+            now[i] = passes[i]();
+        }
+        // The first rounds warm up.
+        if round >= 2 {
+            for (i, &time) in now.iter().enumerate() {
+                times[i].push(time);
+                ratios[i].push(now[0] / time);
+            }
+        }
+    }
+    let median = |mut v: Vec<f64>| {
+        v.sort_by(f64::total_cmp);
+        v[v.len() / 2]
+    };
+    let medians = times.into_iter().zip(ratios);
+    medians.map(|(t, r)| (median(t), median(r))).collect()
+}
+
+fn heading(names: &[&str]) {
+    print!("{:14} {:>5} {:>5} {:>5}", "", "out", "in", "cross");
+    names.iter().for_each(|name| print!(" {name:>14}"));
+    println!();
+}
+
+fn row(turns: &[(f64, f64)]) {
+    for (time, ratio) in turns {
+        print!(" {time:6.1} ({ratio:5.2})");
+    }
+    println!();
+}
+
+fn table<T: Real>(scalar: &str, form: Form, (place, pose): (&str, Pose), rounds: usize) {
+    println!("\n{scalar}, {}, in the {place}", form.name());
+    let frustum = frustum(form.shape(), &pose);
+    for mix in Mix::ALL {
+        let segments = mix.segments::<T>(&pose);
+        let [out, _, _, inside, cross] = assert_answers_agree(&frustum, &segments);
+        let (names, passes): (Vec<_>, Vec<_>) = clippers(&frustum, &segments).into_iter().unzip();
+        if mix == Mix::ALL[0] {
+            heading(&names);
+        }
+        print!("{:14} {out:5} {inside:5} {cross:5}", mix.name());
+        row(&take_turns(&passes, rounds));
+    }
+}
+
+/// The 78 singular samples: here plain answers may be wrong, so they are
+/// counted instead.
+fn singular(rounds: usize) {
+    for (place, placement) in [
+        ("frame", Placement::IDENTITY),
+        ("world", Placement::rotated([1, 2, 2, 4])),
+    ] {
+        println!("\nf64, the 78 singular samples, in the {place}");
+        let (frustum, segments) = samples::<f64>(&placement);
+        let (names, passes): (Vec<_>, Vec<_>) = clippers(&frustum, &segments).into_iter().unzip();
+        heading(&names);
+        print!("{:32}", "");
+        row(&take_turns(&passes, rounds));
+        print!("{:32}", "wrong of 4096");
+        for (name, wrong) in wrong_answers(&frustum, &segments) {
+            let parametric = !matches!(name, "cohen-sutherland" | "six-planes");
+            // In the frame all boundary values are exact.
+            assert!(
+                place == "world" || !parametric || wrong == 0,
+                "{name}: {wrong}"
+            );
+            print!(" {wrong:14}");
+        }
+        println!();
+    }
+}
+
+/// Plain V/W on each form, compared with nearly the same set of points in the
+/// general form.
+fn forms(rounds: usize) {
+    println!("\nf64, in the frame: plain V/W in the general form, and in its own");
+    for form in [Form::Symmetric, Form::Orthographic, Form::Infinite] {
+        let shapes = [form.generalised(), form.shape()];
+        let [general, own] = shapes.map(|shape| frustum(shape, &Pose::IDENTITY));
+        for mix in Mix::ALL {
+            let all = mix.segments::<f64>(&Pose::IDENTITY);
+            let classes = [&general, &own].map(|f| assert_answers_agree(f, &all));
+            assert_eq!(classes[0], classes[1], "not the same set of points");
+            let passes: [Pass<'_>; 2] = [
+                Box::new(|| pass(VwProjection::plain(), &general, &all)),
+                Box::new(|| pass(VwProjection::plain(), &own, &all)),
+            ];
+            let turns = take_turns(&passes, rounds);
+            let ([(a, _), (b, ratio)], form, mix) = ([turns[0], turns[1]], form.name(), mix.name());
+            println!("{form:14} {mix:14} {a:6.1} {b:6.1} ({ratio:5.2})");
+        }
+    }
+}
+
+fn main() {
+    // Cargo passes --bench, too.
+    let rounds = std::env::args().skip(1).find_map(|arg| arg.parse().ok());
+    let rounds = rounds.unwrap_or(60_usize).max(1);
+    println!("nanoseconds a segment; in brackets how many times as fast as textbook Liang-Barsky");
+    for place in poses() {
+        table::<f64>("f64", Form::Symmetric, place, rounds);
+        table::<f32>("f32", Form::Symmetric, place, rounds);
+    }
+    for form in &Form::ALL[1..] {
+        table::<f64>("f64", *form, poses()[0], rounds);
+    }
+    singular(rounds);
+    forms(rounds);
+}
