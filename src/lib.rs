@@ -7,6 +7,8 @@ mod interop;
 pub mod math;
 #[cfg(feature = "oracle")]
 pub mod oracle;
+#[cfg(feature = "report")]
+pub mod report;
 pub mod samples;
 
 pub use clip::{

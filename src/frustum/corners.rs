@@ -5,7 +5,7 @@
 //! division. Planes are exact up to the final scaling to unit length. Nothing
 //! here serves exact decisions, which are made on the frustum itself.
 
-use super::dyadic::{Dyadic, Dyadic3, cross, dot, exact, normalised_by_power};
+use super::exact_vec::{Dyadic, Dyadic3, Rounded, cross, dot, exact, normalised_by_power};
 use super::{EndRect, Face, Frustum, Shape};
 use crate::math::{Rect, Vec3};
 

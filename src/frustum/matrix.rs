@@ -19,7 +19,7 @@
 //! that looks right: see [`ClipSpace`] and [`MatrixLayout`]. Handedness needs
 //! no convention; the rows have it.
 
-use super::dyadic::{Dyadic, Dyadic3, cross, dot, exact, unit};
+use super::exact_vec::{Dyadic, Dyadic3, Rounded, cross, dot, exact, unit};
 use super::{Direction, EndRect, Frustum, FrustumError, Shape};
 use crate::math::{Pose, Real, Rect, Vec3};
 use std::cmp::Ordering;
@@ -283,7 +283,7 @@ impl System {
         let [a, b, c] = rows.map(exact);
         let columns = [cross(&b, &c), cross(&c, &a), cross(&a, &b)];
         let determinant = dot(&a, &columns[0]);
-        match determinant.sign() {
+        match determinant.order() {
             Ordering::Equal => Err(FrustumError::SingularMatrix),
             Ordering::Greater => Ok(Self {
                 columns,
@@ -409,10 +409,10 @@ impl Depth {
     fn near_distance(&self) -> Result<f64, FrustumError> {
         let near = &self.near;
         let distance = (-&near.constant).ratio(&near.slope);
-        if near.slope.sign() != Ordering::Greater || near.constant.sign() == Ordering::Greater {
+        if near.slope.order() != Ordering::Greater || near.constant.order() == Ordering::Greater {
             return Err(FrustumError::NoNearPlane { w: distance });
         }
-        if near.constant.sign() == Ordering::Equal {
+        if near.constant.order() == Ordering::Equal {
             // Depth does not vary.
             return Err(FrustumError::SingularMatrix);
         }
@@ -432,7 +432,7 @@ impl Depth {
     /// `None`: there is no far plane.
     fn far_distance(&self, near: f64, slack: f64) -> Result<Option<f64>, FrustumError> {
         let far = &self.far;
-        if far.slope.sign() != Ordering::Less {
+        if far.slope.order() != Ordering::Less {
             // At infinity, or beyond it by rounding.
             let beyond = far.slope.ratio(&self.determinant);
             if beyond > slack {
@@ -469,7 +469,7 @@ impl Depth {
     /// The near distance over that at which a tilted far plane comes into view.
     fn stray_far_plane(&self, near: f64) -> f64 {
         let excess = &self.tilt - &self.far.slope;
-        match excess.sign() {
+        match excess.order() {
             Ordering::Greater => near * excess.ratio(&self.far.constant),
             _ => 0.0,
         }
@@ -477,7 +477,7 @@ impl Depth {
 }
 
 fn absolute(x: Dyadic) -> Dyadic {
-    match x.sign() {
+    match x.order() {
         Ordering::Less => -&x,
         _ => x,
     }

@@ -3,8 +3,8 @@
 pub(crate) mod boundary;
 mod camera;
 mod corners;
-mod dyadic;
 mod error;
+mod exact_vec;
 mod face;
 pub(crate) mod filter;
 mod independent;

@@ -21,7 +21,9 @@
 //! Six points overdetermine a frustum: angles that should be right are checked,
 //! up to what rounding of the points explains and [`SixPoints::SKEW`].
 
-use super::dyadic::{Dyadic, Dyadic3, difference, dot, exact, normalised_by_power, unit};
+use super::exact_vec::{
+    Dyadic, Dyadic3, Rounded, difference, dot, exact, normalised_by_power, unit,
+};
 use super::{EndRect, Frustum, FrustumError, Shape};
 use crate::math::{Pose, Rect, Vec3};
 
@@ -78,7 +80,7 @@ struct Edge {
 
 impl SixPoints {
     /// Cosine up to which an angle counts as right, besides what rounding of
-    /// the points explains: `2^-20`, a fifth of a second of arc times one.
+    /// the points explains: `2^-20`, about a fifth of a second of arc.
     pub const SKEW: f64 = 1.0 / 1_048_576.0;
 
     /// The frustum of the six points. Frame: origin `Pb`, `x` along `Pb -> A1`,

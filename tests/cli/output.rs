@@ -96,7 +96,7 @@ where
     let (frustum, mut parts) = (frustum(), 0);
     for (i, (segment, row)) in segments.iter().zip(&rows).enumerate() {
         let fields: Vec<&str> = row.split(',').collect();
-        let clip = frustum.clip_segment_with(*segment, accuracy).unwrap();
+        let clip = frustum.clip_segment_with(segment, accuracy).unwrap();
         assert_eq!(fields[..2], [i.to_string().as_str(), clip.class.name()]);
         let Some(part) = clip.part else {
             assert!(fields[2..].iter().all(|f| f.is_empty()), "{row}");

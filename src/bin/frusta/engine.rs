@@ -126,7 +126,7 @@ impl<T: Real> Engine<T> {
         stages: &mut StageCounts,
     ) -> Result<SegmentClip<T>, NonFinite> {
         match self {
-            Self::Counted(accuracy) => frustum.clip_segment_counted(*segment, *accuracy, stages),
+            Self::Counted(accuracy) => frustum.clip_segment_counted(segment, *accuracy, stages),
             Self::Other(clipper, _) => clipper.clip_segment(frustum, segment),
         }
     }

@@ -63,41 +63,50 @@ fn clip_in<T: Real, L: Layout>(
     let wide = segment.to_f64();
     let p = filter.values_in::<L>(wide.start);
     let q = filter.values_in::<L>(wide.end);
-    match certify(filter, &p, &q) {
-        Certificate::Outside => Ok(SegmentClip::OUTSIDE),
-        Certificate::Inside => Ok(inside(segment)),
-        Certificate::Cross(entered, left) if accuracy == Accuracy::Fast => {
-            Ok(fast(filter, segment, &wide, &[p, q], [entered, left]))
-        }
-        Certificate::Cross(entered, left) => {
-            let mut staged = Staged::with(frustum, wide, [p, q], false);
-            let decision = crossing([entered, left]);
-            let result = points::build(&mut staged, segment, &decision, accuracy);
-            staged.add_to(counts);
-            Ok(result)
-        }
-        Certificate::None => super::clip(frustum, segment, accuracy, counts, |s| span(s)),
+    match triage(filter, &p, &q) {
+        Triage::Outside => Ok(SegmentClip::OUTSIDE),
+        Triage::Inside => Ok(inside(segment)),
+        Triage::Crossing => Ok(match cross(frustum, segment, accuracy, [p, q]) {
+            Some(result) => result,
+            None => return super::clip(frustum, segment, accuracy, counts, |s| span(s)),
+        }),
+        Triage::Unsure => super::clip(frustum, segment, accuracy, counts, |s| span(s)),
     }
 }
 
-/// What rounded values prove.
-enum Certificate {
-    Outside,
-    Inside,
-    /// Crosses one face at each end that is clipped.
-    Cross(FaceSet, FaceSet),
-    /// Nothing.
-    None,
+/// Clips what certainly has ends on both sides of some faces; `None` if their
+/// order is not certain.
+#[inline(never)]
+fn cross<T: Real>(
+    frustum: &Frustum,
+    segment: &Segment<T>,
+    accuracy: Accuracy,
+    values: [Values; 2],
+) -> Option<SegmentClip<T>> {
+    let filter = frustum.filter();
+    let (depth, side) = thresholds(filter, values[0].size + values[1].size);
+    match certify(&values[0].g, &values[1].g, depth, side) {
+        Certificate::Outside => Some(SegmentClip::OUTSIDE),
+        Certificate::Cross(faces) if accuracy == Accuracy::Fast => {
+            Some(fast(filter, segment, &segment.to_f64(), &values, faces))
+        }
+        Certificate::Cross(faces) => {
+            let mut staged = Staged::with(frustum, segment.to_f64(), values, false);
+            Some(points::build(
+                &mut staged,
+                segment,
+                &crossing(faces),
+                accuracy,
+            ))
+        }
+        Certificate::None => None,
+    }
 }
 
+/// The thresholds of depth and sides for both ends, from the sum of their
+/// sizes: thresholds grow with it.
 #[inline(always)]
-fn certify(filter: &Filter, p: &Values, q: &Values) -> Certificate {
-    let size = p.size + q.size;
-    if !filter.covers(size) {
-        return Certificate::None;
-    }
-    // Thresholds grow with the size, so these serve both ends.
-    let side = filter.side_threshold(size);
+fn thresholds(filter: &Filter, size: f64) -> (f64, f64) {
     // With the identity pose near and far values are differences of two
     // doubles: relative error u, and all that counts is that their reciprocals
     // are finite.
@@ -106,34 +115,60 @@ fn certify(filter: &Filter, p: &Values, q: &Values) -> Certificate {
     } else {
         filter.depth_threshold(size)
     };
+    (depth, filter.side_threshold(size))
+}
+
+/// What the rounded values' signs prove.
+enum Triage {
+    Outside,
+    Inside,
+    /// All signs are certain; some face is crossed.
+    Crossing,
+    Unsure,
+}
+
+#[inline(always)]
+fn triage(filter: &Filter, p: &Values, q: &Values) -> Triage {
+    let size = p.size + q.size;
+    if !filter.covers(size) {
+        return Triage::Unsure;
+    }
+    let (depth, side) = thresholds(filter, size);
     let (a, b) = (&p.g, &q.g);
     let greater = |i: usize| max(a[i], b[i]);
-    if min(greater(0), greater(1)) < -depth
-        || min(greater(2), greater(3)) < -side
-        || min(greater(4), greater(5)) < -side
-    {
-        return Certificate::Outside;
+    let sides = min(min(greater(2), greater(3)), min(greater(4), greater(5)));
+    if (min(greater(0), greater(1)) < -depth) | (sides < -side) {
+        return Triage::Outside;
     }
     let lesser = |i: usize| min(a[i], b[i]);
     let least_depth = min(lesser(0), lesser(1));
     let least_side = min(min(lesser(2), lesser(3)), min(lesser(4), lesser(5)));
-    if least_depth > depth && least_side > side {
-        return Certificate::Inside;
+    if (least_depth > depth) & (least_side > side) {
+        return Triage::Inside;
     }
     let nearest = |i: usize| min(a[i].abs(), b[i].abs());
-    let sure = min(nearest(0), nearest(1)) > depth
-        && min(min(nearest(2), nearest(3)), min(nearest(4), nearest(5))) > side;
-    if sure {
-        certify_crossing(a, b, depth, side)
+    let least_depth = min(nearest(0), nearest(1));
+    let least_side = min(min(nearest(2), nearest(3)), min(nearest(4), nearest(5)));
+    if (least_depth > depth) & (least_side > side) {
+        Triage::Crossing
     } else {
-        Certificate::None
+        Triage::Unsure
     }
+}
+
+/// What rounded parameters prove.
+enum Certificate {
+    Outside,
+    /// Crosses one face at each end that is clipped.
+    Cross([FaceSet; 2]),
+    /// Nothing.
+    None,
 }
 
 /// For values of certain sign, some of them negative. Selects, not branches:
 /// which faces are crossed cannot be predicted.
 #[inline(always)]
-fn certify_crossing(a: &[f64; 6], b: &[f64; 6], depth: f64, side: f64) -> Certificate {
+fn certify(a: &[f64; 6], b: &[f64; 6], depth: f64, side: f64) -> Certificate {
     // Parameters of entering and leaving faces; faces that are not crossed
     // stand where they change nothing.
     let (mut enter, mut leave, mut scales) = ([0.0; 6], [0.0; 6], [0.0; 6]);
@@ -164,7 +199,7 @@ fn certify_crossing(a: &[f64; 6], b: &[f64; 6], depth: f64, side: f64) -> Certif
     let apart = last_enter + error < first_leave;
     let single = |set: u8| set & set.wrapping_sub(1) == 0;
     if apart & single(entered) & single(left) {
-        Certificate::Cross(FaceSet::from_bits(entered), FaceSet::from_bits(left))
+        Certificate::Cross([FaceSet::from_bits(entered), FaceSet::from_bits(left)])
     } else {
         Certificate::None
     }
