@@ -125,9 +125,9 @@ fn gltf_documents() {
             "attributes[\"POSITION\"]: Missing data",
         ),
         (
-            "/meshes/0/primitives/0/attributes",
-            json!({"POSITION": 1}),
-            "accessor 1: POSITION must be VEC3",
+            "/accessors/0/type",
+            json!("VEC2"),
+            "accessor 0: POSITION must be VEC3",
         ),
         (
             "/meshes/0/primitives/0/indices",
