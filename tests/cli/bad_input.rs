@@ -125,6 +125,11 @@ fn gltf_documents() {
             "attributes[\"POSITION\"]: Missing data",
         ),
         (
+            "/meshes/0/primitives/0/attributes",
+            json!({"POSITION": 2}),
+            "meshes[0].primitives[0].attributes[\"POSITION\"]: accessor 2 of 2",
+        ),
+        (
             "/accessors/0/type",
             json!("VEC2"),
             "accessor 0: POSITION must be VEC3",
@@ -139,11 +144,7 @@ fn gltf_documents() {
             json!(9),
             "9 elements from byte 0 do not fit buffer view 0 of 96 bytes",
         ),
-        (
-            "/accessors/0/count",
-            json!(u64::MAX),
-            "do not fit buffer view 0",
-        ),
+        ("/accessors/0/count", json!(u64::MAX), "points are too many"),
         (
             "/accessors/0/count",
             json!(7),

@@ -32,6 +32,9 @@ const HARMLESS: [&str; 6] = [
 /// Extensions that add geometry; without them the answer would be wrong.
 const MISSING: [&str; 1] = ["EXT_mesh_gpu_instancing"];
 
+/// The attribute that holds the points.
+const POSITIONS: Checked<gltf::Semantic> = Checked::Valid(gltf::Semantic::Positions);
+
 /// Reads a file's edges.
 pub(super) fn read(
     file: &Path,
@@ -94,6 +97,7 @@ fn parse<'a>(file: &Path, bytes: &'a [u8]) -> Result<(json::Root, Option<&'a [u8
             format_args!("it uses the extension {name}, which is not supported"),
         ));
     }
+    check_positions(&root).map_err(|(place, why)| Failure::at(file, place, why))?;
     let document = gltf::Document::from_json(root).map_err(|e| match e {
         gltf::Error::Validation(found) => match found.first() {
             Some((path, why)) => Failure::at(file, path, why),
@@ -102,6 +106,22 @@ fn parse<'a>(file: &Path, bytes: &'a [u8]) -> Result<(json::Root, Option<&'a [u8
         other => Failure::in_file(file, other),
     })?;
     Ok((document.into_json(), blob))
+}
+
+/// The crate's check of positions indexes the accessors before it has checked
+/// the index.
+fn check_positions(root: &json::Root) -> Result<(), (String, String)> {
+    let count = root.accessors.len();
+    for (i, mesh) in root.meshes.iter().enumerate() {
+        for (k, primitive) in mesh.primitives.iter().enumerate() {
+            let positions = primitive.attributes.get(&POSITIONS).map(json::Index::value);
+            if let Some(index) = positions.filter(|&index| index >= count) {
+                let place = format!("meshes[{i}].primitives[{k}].attributes[\"POSITION\"]");
+                return Err((place, format!("accessor {index} of {count}")));
+            }
+        }
+    }
+    Ok(())
 }
 
 /// The JSON chunk and, if there is one, the binary chunk.
@@ -293,8 +313,7 @@ fn read_mesh(
             continue;
         }
         let mut read = || {
-            let semantic = Checked::Valid(gltf::Semantic::Positions);
-            let positions = primitive.attributes.get(&semantic);
+            let positions = primitive.attributes.get(&POSITIONS);
             let positions = positions.ok_or("it has no POSITION attribute")?.value();
             let base = match bases.get(&positions) {
                 Some(&base) => base,
