@@ -1,8 +1,8 @@
 //! CSV rows `x0,y0,z0,x1,y1,z1`: one segment a row, read as a stream.
 //!
 //! With a header the six columns are found by name, in any order and among
-//! others, so that the command's own output can be read again; without one a
-//! row has six fields. Lines that begin with `#` are comments.
+//! others; without one a row has six fields. Lines that begin with `#` are
+//! comments.
 
 use super::Bounds;
 use crate::failure::{Failure, quote};
