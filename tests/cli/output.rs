@@ -155,7 +155,7 @@ fn a_picture_shows_parts_and_marks_where_they_are_clipped() {
     // 1200 pixels in tenths; seen along -z: x to the right, y upwards.
     assert!(
         svg.contains(
-            "<path class=\"cross\" stroke=\"#d9600f\" d=\"M0 6000l12000 0M6000 6000l0 0\"/>"
+            "<path class=\"cross\" stroke=\"#d9600f\" d=\"M6000 6000l0 0M0 6000l12000 0\"/>"
         ),
         "{svg}"
     );
@@ -193,7 +193,7 @@ fn many_strokes_are_thinned_to_what_a_viewer_can_open() {
     assert!(clip(args).status.success());
     let svg = folder.read("many.svg");
     let strokes = svg.matches('M').count();
-    assert!((1_000..60_000).contains(&strokes), "{strokes}");
+    assert!((100..10_000).contains(&strokes), "{strokes}");
 }
 
 #[test]

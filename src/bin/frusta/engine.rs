@@ -1,15 +1,27 @@
 //! The algorithms by name.
 
 use clap::ValueEnum;
+use frusta::clip::LiangBarskyVariant;
 use frusta::{
-    Frustum, NonFinite, Real, Segment, SegmentClip, SegmentClipper, StageCounts, VwProjection,
+    CohenSutherland, CyrusBeck, Frustum, LiangBarsky, NonFinite, Real, Segment, SegmentClip,
+    SegmentClipper, SixPlanes, StageCounts, VwProjection,
 };
 
 /// `--algorithm`
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Algorithm {
-    /// Projection on two planes (V/W)
+    /// Projection on two planes
     Vw,
+    /// Liang-Barsky that divides only where the signs ask for it
+    LiangBarsky,
+    /// Liang-Barsky with a division for each side that is not parallel
+    LiangBarskyTextbook,
+    /// Intersection with each face's plane, points kept that are inside
+    SixPlanes,
+    /// Entering and leaving parameters against oriented planes
+    CyrusBeck,
+    /// Region codes in the frustum's frame
+    CohenSutherland,
 }
 
 /// `--arithmetic`
@@ -53,12 +65,28 @@ pub(crate) enum Engine<T> {
 impl<T: Real> Engine<T> {
     /// The clipper of these names.
     pub(crate) fn new(algorithm: Algorithm, arithmetic: Arithmetic, accuracy: Accuracy) -> Self {
-        match (algorithm, arithmetic) {
-            (Algorithm::Vw, Arithmetic::Exact) => Self::Counted(accuracy.into()),
-            (Algorithm::Vw, Arithmetic::Plain) => {
-                Self::Other(Box::new(VwProjection::plain()), frusta::Arithmetic::Plain)
-            }
-        }
+        let arithmetic = match arithmetic {
+            Arithmetic::Plain => frusta::Arithmetic::Plain,
+            Arithmetic::Exact => frusta::Arithmetic::Exact(accuracy.into()),
+        };
+        let liang_barsky = |variant| {
+            Box::new(LiangBarsky {
+                arithmetic,
+                variant,
+            })
+        };
+        let clipper: Box<dyn SegmentClipper<T> + Send + Sync> = match algorithm {
+            Algorithm::Vw => match arithmetic {
+                frusta::Arithmetic::Exact(accuracy) => return Self::Counted(accuracy),
+                frusta::Arithmetic::Plain => Box::new(VwProjection::plain()),
+            },
+            Algorithm::LiangBarsky => liang_barsky(LiangBarskyVariant::Tuned),
+            Algorithm::LiangBarskyTextbook => liang_barsky(LiangBarskyVariant::Textbook),
+            Algorithm::SixPlanes => Box::new(SixPlanes { arithmetic }),
+            Algorithm::CyrusBeck => Box::new(CyrusBeck { arithmetic }),
+            Algorithm::CohenSutherland => Box::new(CohenSutherland { arithmetic }),
+        };
+        Self::Other(clipper, arithmetic)
     }
 
     /// The algorithm's name.

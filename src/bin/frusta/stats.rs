@@ -132,66 +132,26 @@ impl Report<'_> {
 
     /// As a table.
     pub(crate) fn to_table(&self) -> String {
-        let mut rows: Vec<(&str, String)> = Vec::new();
-        let counts = &self.counts;
         let edges = self.edges.map_or(String::new(), |e| format!(", {e}"));
-        rows.push(("file", format!("{} ({}{edges})", self.file, self.format)));
         let chosen = if self.chosen {
             " (chosen from the scene's extent)"
         } else {
             ""
         };
-        rows.push(("view", format!("{}{chosen}", self.flags)));
-        rows.push((
-            "algorithm",
-            format!(
-                "{}, {}{}, {}",
-                self.algorithm,
-                self.arithmetic,
-                self.accuracy.map_or(String::new(), |a| format!(" ({a})")),
-                self.precision
-            ),
-        ));
-        let segments = counts.segments();
-        rows.push(("segments", grouped(segments)));
-        for (class, count) in Class::ALL.iter().zip(counts.classes) {
-            let share = 100.0 * count as f64 / segments.max(1) as f64;
-            rows.push((
-                class.name(),
-                format!("{:>13}  {share:6.2} %", grouped(count)),
-            ));
-        }
-        rows.push(("clipped ends", grouped(counts.clipped_ends)));
-        if let Some(share) = self.exact_share() {
-            let stages = &counts.stages;
-            rows.push((
-                "exact stage",
+        let accuracy = self.accuracy.map_or(String::new(), |a| format!(" ({a})"));
+        let mut rows = vec![
+            ("file", format!("{} ({}{edges})", self.file, self.format)),
+            ("view", format!("{}{chosen}", self.flags)),
+            (
+                "algorithm",
                 format!(
-                    "{:.4} % of the segments; {} signs by expansions, {} by integers",
-                    100.0 * share,
-                    grouped(stages.expansions),
-                    grouped(stages.integers)
+                    "{}, {}{accuracy}, {}",
+                    self.algorithm, self.arithmetic, self.precision
                 ),
-            ));
-        }
-        let Times {
-            read,
-            clip,
-            write,
-            total,
-        } = self.times;
-        rows.push((
-            "time",
-            format!(
-                "{:.3} s (read {:.3}, clip {:.3}, write {:.3}, summed over {} thread{})",
-                total.as_secs_f64(),
-                read.as_secs_f64(),
-                clip.as_secs_f64(),
-                write.as_secs_f64(),
-                self.threads,
-                if self.threads == 1 { "" } else { "s" }
             ),
-        ));
+        ];
+        self.count_rows(&mut rows);
+        rows.push(("time", self.time_row()));
         if let Some(bytes) = peak_memory() {
             rows.push(("peak memory", format!("{:.1} MB", bytes as f64 / 1e6)));
         }
@@ -204,6 +164,43 @@ impl Report<'_> {
             let _ = writeln!(table, "{name:<13} {value}");
         }
         table
+    }
+
+    fn count_rows(&self, rows: &mut Vec<(&str, String)>) {
+        let counts = &self.counts;
+        let segments = counts.segments();
+        rows.push(("segments", grouped(segments)));
+        for (class, count) in Class::ALL.iter().zip(counts.classes) {
+            let share = 100.0 * count as f64 / segments.max(1) as f64;
+            let row = format!("{:>13}  {share:6.2} %", grouped(count));
+            rows.push((class.name(), row));
+        }
+        rows.push(("clipped ends", grouped(counts.clipped_ends)));
+        if self.accuracy == Some("inward") {
+            rows.push(("not inward", grouped(counts.not_inward)));
+        }
+        if let Some(share) = self.exact_share() {
+            let row = format!(
+                "{:.4} % of the segments; {} signs by expansions, {} by integers",
+                100.0 * share,
+                grouped(counts.stages.expansions),
+                grouped(counts.stages.integers)
+            );
+            rows.push(("exact stage", row));
+        }
+    }
+
+    fn time_row(&self) -> String {
+        let times = &self.times;
+        format!(
+            "{:.3} s (read {:.3}, clip {:.3}, write {:.3}, summed over {} thread{})",
+            times.total.as_secs_f64(),
+            times.read.as_secs_f64(),
+            times.clip.as_secs_f64(),
+            times.write.as_secs_f64(),
+            self.threads,
+            if self.threads == 1 { "" } else { "s" }
+        )
     }
 }
 

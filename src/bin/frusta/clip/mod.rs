@@ -9,6 +9,7 @@
 mod run;
 mod source;
 
+use crate::EXIT_CODES;
 use crate::engine::{Accuracy, Algorithm, Arithmetic, Engine};
 use crate::failure::Failure;
 use crate::input::{EdgeChoice, Format};
@@ -28,7 +29,7 @@ use std::time::Instant;
 /// Reads line segments from FILE, clips each, and writes the parts, a picture of them, or only
 /// statistics. Classes and faces are exact unless --arithmetic plain is asked for.
 #[derive(Args, Debug)]
-#[command(after_help = HELP_END, after_long_help = LONG_HELP_END)]
+#[command(after_help = HELP_END, after_long_help = format!("{FORMATS}\n{EXIT_CODES}"))]
 pub(crate) struct ClipArgs {
     /// What to clip: .glb, .gltf, .obj, or .csv with a segment x0,y0,z0,x1,y1,z1 a row
     file: PathBuf,
@@ -147,9 +148,8 @@ fn print(text: &str) -> Result<(), Failure> {
 /// The end of `-h`.
 const HELP_END: &str = "More with --help: formats, examples, exit codes.";
 
-/// The end of `--help`.
-const LONG_HELP_END: &str = concat!(
-    "\
+/// The end of `--help`, but for the exit codes.
+const FORMATS: &str = "\
 Input
   .glb .gltf  The default scene's line (mode 1 to 3) or triangle (mode 4 to 6) primitives through
               all node transforms, composed in double precision. Sparse accessors, quantized
@@ -190,9 +190,4 @@ Examples
       every row's part in an infinite frustum
   frusta clip edges.csv --frustum view.json --accuracy inward --json
       statistics, with clipped points that never lie outside
-
-Exit codes
-  0  done
-  2  wrong usage, or a file that cannot be read, makes no sense or cannot be written; one line on
-     the error stream names the file, the place in it and the reason, and no output file is left"
-);
+";

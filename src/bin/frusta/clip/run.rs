@@ -39,7 +39,7 @@ impl<T: Scalar> Run<'_, T> {
         let timed = || {
             let start = Instant::now();
             let chunk = next()?;
-            Ok(chunk.map(|(chunk, position)| (chunk, position, start.elapsed())))
+            Ok(chunk.map(|chunk| (chunk, start.elapsed())))
         };
         let result = pipeline::run(
             self.threads,
@@ -61,11 +61,11 @@ impl<T: Scalar> Run<'_, T> {
     }
 
     /// A worker with buffers of its own, which it uses again for each chunk.
-    fn worker(&self) -> impl FnMut((Chunk<T>, u64, Duration)) -> Result<Done, Failure> {
+    fn worker(&self) -> impl FnMut((Chunk<T>, Duration)) -> Result<Done, Failure> {
         let mut segments: Vec<Segment<T>> = Vec::new();
         let mut clips: Vec<SegmentClip<T>> = Vec::new();
-        move |(chunk, position, read)| {
-            let first = chunk.first;
+        move |(chunk, read)| {
+            let (first, position) = (chunk.first, chunk.position);
             let start = Instant::now();
             self.source.load(chunk, &mut segments);
             let loaded = Instant::now();

@@ -21,8 +21,15 @@ pub(super) struct Source {
 pub(super) struct Chunk<T> {
     /// The first one's number.
     pub(super) first: u64,
+    /// How far the source has been read, of [`Source::size`].
+    pub(super) position: u64,
     load: Load<T>,
 }
+
+/// Gives a source's chunks, then `None`.
+pub(super) trait Chunks<T>: FnMut() -> Result<Option<Chunk<T>>, Failure> + Send {}
+
+impl<T, F: FnMut() -> Result<Option<Chunk<T>>, Failure> + Send> Chunks<T> for F {}
 
 enum Load<T> {
     /// So many of the scene's.
@@ -73,10 +80,8 @@ impl Source {
         }
     }
 
-    /// A function that gives the next chunk and how far the source is read.
-    pub(super) fn chunks<T: Scalar>(
-        &self,
-    ) -> Result<impl FnMut() -> Result<Option<(Chunk<T>, u64)>, Failure> + Send, Failure> {
+    /// A function that gives the next chunk.
+    pub(super) fn chunks<T: Scalar>(&self) -> Result<impl Chunks<T>, Failure> {
         let mut rows = match &self.scene {
             Some(_) => None,
             None => Some(Rows::open(&self.file)?),
@@ -95,9 +100,13 @@ impl Source {
                     (Load::Edges(count), count, first + count)
                 }
             };
-            let chunk = Chunk { first, load };
+            let chunk = Chunk {
+                first,
+                position,
+                load,
+            };
             first += count;
-            Ok((count > 0).then_some((chunk, position)))
+            Ok((count > 0).then_some(chunk))
         })
     }
 

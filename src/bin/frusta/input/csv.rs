@@ -1,8 +1,8 @@
 //! CSV rows `x0,y0,z0,x1,y1,z1`: one segment a row, read as a stream.
 //!
 //! With a header the six columns are found by name, in any order and among
-//! others, so that the command's own output can be read again; without one a
-//! row has six fields. Lines that begin with `#` are comments.
+//! others; without one a row has six fields. Lines that begin with `#` are
+//! comments.
 
 use super::Bounds;
 use crate::failure::{Failure, quote};
@@ -10,6 +10,7 @@ use crate::number::{self, Scalar};
 use csv::{ByteRecord, ReaderBuilder, Trim};
 use frusta::{Segment, Vec3};
 use std::fs::File;
+use std::io::{BufRead, BufReader, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
 
 /// The columns, in the order of a segment's coordinates.
@@ -57,7 +58,6 @@ impl Rows {
             if !more.map_err(|e| Failure::in_file(&self.file, e))? {
                 return Ok(None);
             }
-            let line = self.record.position().map_or(0, csv::Position::line);
             let found = match self.columns {
                 Some(columns) => self.segment(columns).map(Some),
                 None => self.first_row(),
@@ -66,10 +66,30 @@ impl Rows {
                 Ok(Some(segment)) => return Ok(Some(segment)),
                 Ok(None) => {}
                 Err(why) => {
+                    let line = self.line().map_err(|e| Failure::in_file(&self.file, e))?;
                     return Err(Failure::at(&self.file, format_args!("line {line}"), why));
                 }
             }
         }
+    }
+
+    /// The record's line. Its position is from before the empty lines and the
+    /// comments above it, so these are counted in the file.
+    fn line(&self) -> std::io::Result<u64> {
+        let Some(position) = self.record.position() else {
+            return Ok(1);
+        };
+        let mut file = File::open(&self.file)?;
+        file.seek(SeekFrom::Start(position.byte()))?;
+        let mut line = position.line();
+        for text in BufReader::new(file).split(b'\n') {
+            let text = text?;
+            if !matches!(text.strip_suffix(b"\r").unwrap_or(&text), [] | [b'#', ..]) {
+                break;
+            }
+            line += 1;
+        }
+        Ok(line)
     }
 
     /// A header or the first segment: a row with no number in it is a header.

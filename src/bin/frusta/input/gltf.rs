@@ -32,6 +32,9 @@ const HARMLESS: [&str; 6] = [
 /// Extensions that add geometry; without them the answer would be wrong.
 const MISSING: [&str; 1] = ["EXT_mesh_gpu_instancing"];
 
+/// The attribute that holds the points.
+const POSITIONS: Checked<gltf::Semantic> = Checked::Valid(gltf::Semantic::Positions);
+
 /// Reads a file's edges.
 pub(super) fn read(
     file: &Path,
@@ -94,6 +97,7 @@ fn parse<'a>(file: &Path, bytes: &'a [u8]) -> Result<(json::Root, Option<&'a [u8
             format_args!("it uses the extension {name}, which is not supported"),
         ));
     }
+    check_positions(&root).map_err(|(place, why)| Failure::at(file, place, why))?;
     let document = gltf::Document::from_json(root).map_err(|e| match e {
         gltf::Error::Validation(found) => match found.first() {
             Some((path, why)) => Failure::at(file, path, why),
@@ -104,8 +108,27 @@ fn parse<'a>(file: &Path, bytes: &'a [u8]) -> Result<(json::Root, Option<&'a [u8
     Ok((document.into_json(), blob))
 }
 
-/// JSON and binary chunk of a GLB file; an error comes with its byte.
-fn split_glb(bytes: &[u8]) -> Result<(&[u8], Option<&[u8]>), (usize, String)> {
+/// The crate's check of positions indexes the accessors before it has checked
+/// the index.
+fn check_positions(root: &json::Root) -> Result<(), (String, String)> {
+    let count = root.accessors.len();
+    for (i, mesh) in root.meshes.iter().enumerate() {
+        for (k, primitive) in mesh.primitives.iter().enumerate() {
+            let positions = primitive.attributes.get(&POSITIONS).map(json::Index::value);
+            if let Some(index) = positions.filter(|&index| index >= count) {
+                let place = format!("meshes[{i}].primitives[{k}].attributes[\"POSITION\"]");
+                return Err((place, format!("accessor {index} of {count}")));
+            }
+        }
+    }
+    Ok(())
+}
+
+/// The JSON chunk and, if there is one, the binary chunk.
+type Chunks<'a> = (&'a [u8], Option<&'a [u8]>);
+
+/// The chunks of a GLB file; an error comes with its byte.
+fn split_glb(bytes: &[u8]) -> Result<Chunks<'_>, (usize, String)> {
     let word = |at: usize| -> Result<u32, (usize, String)> {
         let four = bytes.get(at..).and_then(|rest| rest.first_chunk());
         let four = four.ok_or_else(|| (at, "the file ends inside a header".to_owned()))?;
@@ -248,7 +271,7 @@ fn local_transform(node: &json::Node) -> Transform {
 fn default_kind(root: &json::Root, placed: &[Placed]) -> EdgeChoice {
     let has_lines = placed.iter().any(|p| {
         let primitives = root.meshes[p.mesh].primitives.iter();
-        primitives.map(mode).any(|m| is_line(m))
+        primitives.map(mode).any(is_line)
     });
     if has_lines {
         EdgeChoice::Lines
@@ -290,8 +313,7 @@ fn read_mesh(
             continue;
         }
         let mut read = || {
-            let semantic = Checked::Valid(gltf::Semantic::Positions);
-            let positions = primitive.attributes.get(&semantic);
+            let positions = primitive.attributes.get(&POSITIONS);
             let positions = positions.ok_or("it has no POSITION attribute")?.value();
             let base = match bases.get(&positions) {
                 Some(&base) => base,
@@ -357,5 +379,77 @@ fn triangle_edges(mode: Mode, indices: &[u32], mut edge: impl FnMut(u32, u32)) {
         _ => indices
             .chunks_exact(3)
             .for_each(|t| triangle(t[0], t[1], t[2])),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A GLB file with every kind of primitive and accessor that is read.
+    fn sample() -> Vec<u8> {
+        let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/fixtures/");
+        let mut text = std::fs::read_to_string(format!("{folder}modes.gltf")).unwrap();
+        text = text.replace(", \"uri\": \"modes%20buffer.bin\"", "");
+        text = text.replace("\"uri\": \"modes%20buffer.bin\"", "\"name\": \"b\"");
+        let blob = std::fs::read(format!("{folder}modes buffer.bin")).unwrap();
+        while text.len() % 4 != 0 {
+            text.push(' ');
+        }
+        let mut glb = b"glTF\x02\0\0\0".to_vec();
+        glb.extend((28 + text.len() as u32 + blob.len() as u32).to_le_bytes());
+        for (kind, chunk) in [(b"JSON", text.as_bytes()), (b"BIN\0", &blob)] {
+            glb.extend((chunk.len() as u32).to_le_bytes());
+            glb.extend(kind);
+            glb.extend(chunk);
+        }
+        glb
+    }
+
+    #[test]
+    fn damaged_files_are_read_or_refused_and_never_panic() {
+        let whole = sample();
+        let file = Path::new("damaged.glb");
+        let scene = read(file, &whole, Some(EdgeChoice::All)).unwrap();
+        assert_eq!(scene.len(), 16 + 12);
+        let mut state = 88_172_645_463_325_252_u64;
+        let mut next = |most: usize| {
+            state ^= state << 13;
+            state ^= state >> 7;
+            state ^= state << 17;
+            (state >> 16) as usize % most
+        };
+        let (mut read_whole, mut refused) = (0, 0);
+        for round in 0..30_000 {
+            let mut bytes = whole.clone();
+            for _ in 0..=next(3) {
+                let at = next(bytes.len());
+                // Digits for digits keep the JSON's grammar and change its sense.
+                bytes[at] = match bytes[at] {
+                    b'0'..=b'9' if round % 4 != 0 => b"0123456789-"[next(11)],
+                    _ if round % 4 == 0 => next(256) as u8,
+                    other => other,
+                };
+            }
+            if round % 16 == 0 {
+                bytes.truncate(next(bytes.len()));
+            }
+            match read(file, &bytes, Some(EdgeChoice::All)) {
+                Ok(scene) => {
+                    let mut segments = Vec::<frusta::Segment<f32>>::new();
+                    scene.fill(0, scene.len(), &mut segments);
+                    assert_eq!(segments.len() as u64, scene.len());
+                    read_whole += 1;
+                }
+                Err(failure) => {
+                    assert!(!failure.to_string().contains('\n'));
+                    refused += 1;
+                }
+            }
+        }
+        assert!(
+            read_whole > 1_000 && refused > 1_000,
+            "{read_whole} {refused}"
+        );
     }
 }

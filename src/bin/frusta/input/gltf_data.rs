@@ -141,7 +141,7 @@ pub(super) fn positions(
             };
             Vec3::new(next(), next(), next())
         };
-        if out.len() as u64 + accessor.count.0 > u64::from(u32::MAX) {
+        if accessor.count.0.saturating_add(out.len() as u64) > u64::from(u32::MAX) {
             return Err(format!("{} points are too many", accessor.count.0));
         }
         match accessor.buffer_view {

@@ -35,6 +35,8 @@ const SHADES: u8 = 6;
 const LEVELS: f64 = 3.0;
 /// Beyond this many, marks at clipped ends would hide the picture.
 const MOST_MARKS: usize = 400;
+/// A sans-serif letter's width, of its size; a little above the usual.
+const GLYPH: f64 = 0.6;
 /// Pieces of a part that may be curved.
 const PIECES: u32 = 24;
 
@@ -242,7 +244,7 @@ impl Picture {
             "</g>\n<rect x=\"{left}\" y=\"{MARGIN}\" width=\"{w}\" height=\"{h}\" fill=\"none\" \
              stroke=\"#55534d\" stroke-width=\"1.5\"/>\n"
         );
-        draw_caption(&mut svg, title, classes, h + MARGIN);
+        draw_caption(&mut svg, title, classes, [page_w, h + MARGIN]);
         svg.push_str("</svg>\n");
         svg
     }
@@ -303,7 +305,10 @@ fn draw_group(
     svg.push_str("\"/>\n");
 }
 
-fn draw_caption(svg: &mut String, title: &str, classes: &[u64; 5], bottom: f64) {
+/// Two lines below the picture; a long title in a smaller type.
+fn draw_caption(svg: &mut String, title: &str, classes: &[u64; 5], [page_w, bottom]: [f64; 2]) {
+    let room = (page_w - 2.0 * MARGIN) / title.chars().count().max(1) as f64;
+    let size = (room / GLYPH).clamp(6.0, 15.0);
     let escaped = title
         .replace('&', "&amp;")
         .replace('<', "&lt;")
@@ -311,7 +316,7 @@ fn draw_caption(svg: &mut String, title: &str, classes: &[u64; 5], bottom: f64) 
     let _ = write!(
         svg,
         "<g font-family=\"sans-serif\" font-size=\"15\" fill=\"#33312c\">\n\
-         <text x=\"{MARGIN}\" y=\"{}\">{escaped}</text>\n<text x=\"{MARGIN}\" y=\"{}\">",
+         <text x=\"{MARGIN}\" y=\"{}\" font-size=\"{size:.1}\">{escaped}</text>\n<text x=\"{MARGIN}\" y=\"{}\">",
         bottom + 30.0,
         bottom + 54.0
     );
