@@ -3,9 +3,12 @@
 pub mod clip;
 mod exact;
 pub mod frustum;
+mod interop;
 pub mod math;
 #[cfg(feature = "oracle")]
 pub mod oracle;
+#[cfg(feature = "report")]
+pub mod report;
 pub mod samples;
 
 pub use clip::{
@@ -13,6 +16,8 @@ pub use clip::{
     PartEnd, SegmentClip, SegmentClipper, SixPlanes, StageCounts, VwProjection,
 };
 pub use frustum::{
-    Camera, Direction, EndRect, Face, FaceSet, Frustum, FrustumError, Projection, Shape,
+    Camera, ClipSpace, ClipY, Corners, DepthRange, Deviation, Direction, EndRect, Face, FaceSet,
+    FarCorners, Frustum, FrustumError, MatrixFrustum, MatrixLayout, Plane, Projection, Shape,
+    SixPoints, Trapezoid, TrapezoidEnd, ViewProjection,
 };
-pub use math::{Axis, End, NonFinite, Pose, Real, Rect, Segment, Vec3};
+pub use math::{Axis, End, Interval, NonFinite, Pose, Real, Rect, Segment, Vec3};

@@ -127,7 +127,7 @@ fn exact_tiers_agree<T: Real>(frustum: &Frustum, place: impl Fn(Vec3<f64>) -> Ve
         let mut point = || Vec3::<T>::from_f64(place(lattice(&mut random)));
         let s = Segment::new(point(), point());
         let accuracy = [Accuracy::Fast, Accuracy::Nearest, Accuracy::Inward][i % 3];
-        let expected = frustum.clip_segment_with(s, accuracy).unwrap();
+        let expected = frustum.clip_segment_with(&s, accuracy).unwrap();
         classes[expected.class as usize] += 1;
         for clipper in exact::<T>(accuracy) {
             let found = clipper.clip_segment(frustum, &s).unwrap();
@@ -164,7 +164,7 @@ fn plain_is_right_on_the_lattice<T: Real>() {
         let mut classes = [0; 5];
         for _ in 0..20_000 {
             let s = Segment::<T>::new(lattice(&mut random), lattice(&mut random));
-            let expected = frustum.clip_segment(s).unwrap();
+            let expected = frustum.clip_segment(&s).unwrap();
             classes[expected.class as usize] += 1;
             for clipper in &plain::<T>()[..4] {
                 let found = clipper.clip_segment(&frustum, &s).unwrap();
@@ -206,7 +206,7 @@ fn six_planes_errs_on_edges_as_described() {
         let edge = Vec3::new(0.1 * -z, 0.1 * -z, z);
         let inner = Vec3::new(0.0, 0.01, -4.0);
         let s = Segment::new(edge + (edge - inner) * 0.5, edge - (edge - inner) * 1.5);
-        let exact = frustum.clip_segment(s).unwrap().class;
+        let exact = frustum.clip_segment(&s).unwrap().class;
         let planes = SixPlanes::plain().clip_segment(&frustum, &s).unwrap().class;
         let sound = CyrusBeck::plain().clip_segment(&frustum, &s).unwrap().class;
         assert_eq!((exact, sound), (Class::Cross, Class::Cross), "{s:?}");

@@ -324,6 +324,40 @@ fn wild_projection() -> impl Strategy<Value = Projection> {
 
 proptest! {
     #[test]
+    fn a_plausible_camera_is_right(eye in prop::array::uniform3(-1e3..1e3), away in prop::array::uniform3(-1.0..1.0),
+                                   up in prop::array::uniform3(-1.0..1.0), fovy in 0.001..3.1, aspect in 0.1..10.0,
+                                   near_exponent in -9i32..3, decades in 1i32..12, scale in -150i32..150) {
+        // All lengths times 10^scale.
+        let unit = 10_f64.powi(scale);
+        let near = 10_f64.powi(near_exponent) * unit;
+        let far = near * 10_f64.powi(decades);
+        let eye = Vec3::from(eye) * unit;
+        let camera = Camera {
+            eye,
+            target: eye + Vec3::from(away) * (1e3 * unit),
+            up: Vec3::from(up),
+            projection: Projection::Perspective { fovy, aspect },
+            near,
+            far,
+        };
+        let frustum = camera.frustum().unwrap();
+        let [right, top, forward] = frustum.pose().axes;
+        // Right-handed with the viewer's side as z; up on the upper side.
+        prop_assert!((right.cross(top) + forward).to_array().iter().all(|x| x.abs() < 1e-15));
+        prop_assert!(top.dot(camera.up) > 0.0);
+        prop_assert!((forward.dot((camera.target - eye) * (1.0 / unit)) / 1e3).powi(2)
+            > 0.999_999 * (Vec3::from(away).dot(Vec3::from(away))));
+        let (n, f) = (frustum.shape().near(), frustum.shape().far().unwrap());
+        prop_assert_eq!((n.z, f.z), (near, far));
+        for end in [n, f] {
+            let slope = end.rect.top / end.z;
+            prop_assert!(close(slope.atan() * 2.0, fovy, 16.0), "{} {}", slope.atan() * 2.0, fovy);
+            prop_assert!(close(end.rect.right / end.rect.top, aspect, 8.0));
+            prop_assert!(end.rect.is_symmetric());
+        }
+    }
+
+    #[test]
     fn any_camera_is_right_or_refused(eye in wild_vec(), target in wild_vec(), up in wild_vec(),
                                       projection in wild_projection(), near in wild(), far in wild()) {
         let camera = Camera { eye, target, up, projection, near, far };

@@ -179,7 +179,7 @@ fn check<T: Real>(frustum: &Frustum, segment: &Segment<T>) -> Result<(), TestCas
         let mut counts = StageCounts::default();
         let clip = |s: &Segment<T>, counts: &mut StageCounts| {
             frustum
-                .clip_segment_counted(*s, accuracy, counts)
+                .clip_segment_counted(s, accuracy, counts)
                 .map_err(|e| TestCaseError::fail(e.to_string()))
         };
         let answer = clip(segment, &mut counts)?;

@@ -46,10 +46,7 @@ impl Frustum {
     /// # Errors
     /// A coordinate of the segment is infinite or NaN.
     #[inline]
-    pub fn clip_segment<T: Real>(
-        &self,
-        segment: impl Into<Segment<T>>,
-    ) -> Result<SegmentClip<T>, NonFinite> {
+    pub fn clip_segment<T: Real>(&self, segment: &Segment<T>) -> Result<SegmentClip<T>, NonFinite> {
         self.clip_segment_with(segment, Accuracy::Fast)
     }
 
@@ -60,7 +57,7 @@ impl Frustum {
     #[inline]
     pub fn clip_segment_with<T: Real>(
         &self,
-        segment: impl Into<Segment<T>>,
+        segment: &Segment<T>,
         accuracy: Accuracy,
     ) -> Result<SegmentClip<T>, NonFinite> {
         self.clip_segment_counted(segment, accuracy, &mut StageCounts::default())
@@ -74,10 +71,10 @@ impl Frustum {
     #[inline]
     pub fn clip_segment_counted<T: Real>(
         &self,
-        segment: impl Into<Segment<T>>,
+        segment: &Segment<T>,
         accuracy: Accuracy,
         counts: &mut StageCounts,
     ) -> Result<SegmentClip<T>, NonFinite> {
-        exact::vw::clip(self, &segment.into(), accuracy, counts)
+        exact::vw::clip(self, segment, accuracy, counts)
     }
 }

@@ -25,6 +25,23 @@ impl Dyadic {
         }
     }
 
+    /// The value times `2^shift`.
+    pub(crate) fn shifted(&self, shift: i32) -> Self {
+        Self {
+            mantissa: self.mantissa.clone(),
+            exponent: self.exponent + shift,
+        }
+    }
+
+    /// The least `e` with `|self| < 2^e`; `None` for zero.
+    pub(crate) fn top(&self) -> Option<i32> {
+        match i32::try_from(self.mantissa.bit_len()) {
+            Ok(0) => None,
+            Ok(bits) => Some(bits + self.exponent),
+            Err(_) => Some(i32::MAX),
+        }
+    }
+
     /// The quotient rounded to nearest, ties to even; infinite beyond the
     /// range, zero for a zero numerator. The denominator must not be zero.
     pub(crate) fn round_quotient<T: Real>(&self, denominator: &Dyadic) -> T {
@@ -114,10 +131,7 @@ impl Number for Dyadic {
     }
 
     fn mul(&self, other: &Self) -> Option<Self> {
-        Some(Dyadic {
-            mantissa: &self.mantissa * &other.mantissa,
-            exponent: self.exponent + other.exponent,
-        })
+        Some(product(self, other))
     }
 
     fn neg(self) -> Self {
@@ -129,6 +143,49 @@ impl Number for Dyadic {
 
     fn sign(&self) -> Ordering {
         self.mantissa.cmp(&IBig::ZERO)
+    }
+}
+
+impl From<f64> for Dyadic {
+    fn from(value: f64) -> Self {
+        Number::from_f64(value)
+    }
+}
+
+// Operators beside the methods of `Number`: here nothing can be without room.
+
+impl std::ops::Add for &Dyadic {
+    type Output = Dyadic;
+    fn add(self, other: Self) -> Dyadic {
+        sum(self, other)
+    }
+}
+
+impl std::ops::Sub for &Dyadic {
+    type Output = Dyadic;
+    fn sub(self, other: Self) -> Dyadic {
+        sum(self, &-other)
+    }
+}
+
+impl std::ops::Mul for &Dyadic {
+    type Output = Dyadic;
+    fn mul(self, other: Self) -> Dyadic {
+        product(self, other)
+    }
+}
+
+impl std::ops::Neg for &Dyadic {
+    type Output = Dyadic;
+    fn neg(self) -> Dyadic {
+        Number::neg(self.clone())
+    }
+}
+
+fn product(a: &Dyadic, b: &Dyadic) -> Dyadic {
+    Dyadic {
+        mantissa: &a.mantissa * &b.mantissa,
+        exponent: a.exponent + b.exponent,
     }
 }
 

@@ -4,12 +4,13 @@
 //! wherever nothing overflows and no product's low part underflows. No fused
 //! multiply-add: the same bits on every machine.
 
-use std::ops::{Add, Mul, Neg, Sub};
+use std::ops::{Add, Mul, Sub};
+use wide::f64x2;
 
-/// A double, or two of them side by side for the compiler to put into one
-/// vector register; every operation acts on each and gives the same bits.
+/// A double, or two side by side in a vector register: every operation acts on
+/// each, with the same bits.
 pub(crate) trait Lanes:
-    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Neg<Output = Self>
+    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self>
 {
     /// The same value everywhere.
     fn splat(value: f64) -> Self;
@@ -22,37 +23,10 @@ impl Lanes for f64 {
     }
 }
 
-/// Two doubles.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Two(pub(crate) [f64; 2]);
-
-impl Lanes for Two {
+impl Lanes for f64x2 {
     #[inline(always)]
     fn splat(value: f64) -> Self {
-        Two([value; 2])
-    }
-}
-
-macro_rules! each {
-    ($trait:ident, $name:ident, $op:tt) => {
-        impl $trait for Two {
-            type Output = Two;
-            #[inline(always)]
-            fn $name(self, other: Two) -> Two {
-                Two([self.0[0] $op other.0[0], self.0[1] $op other.0[1]])
-            }
-        }
-    };
-}
-each!(Add, add, +);
-each!(Sub, sub, -);
-each!(Mul, mul, *);
-
-impl Neg for Two {
-    type Output = Two;
-    #[inline(always)]
-    fn neg(self) -> Two {
-        Two([-self.0[0], -self.0[1]])
+        f64x2::splat(value)
     }
 }
 

@@ -86,6 +86,66 @@ pub enum FrustumError {
         /// What was computed.
         what: &'static str,
     },
+    /// Two points that must differ do not.
+    SamePoint {
+        /// Their names.
+        what: [&'static str; 2],
+        /// Where they are.
+        at: Vec3<f64>,
+    },
+    /// Two edges that must be at a right angle are not.
+    Skew {
+        /// The points the edges lead to from their centres.
+        what: [&'static str; 2],
+        /// The cosine of their angle.
+        cosine: f64,
+    },
+    /// A point of the top lies opposite its counterpart on the base.
+    WrongSide {
+        /// The point's name.
+        what: &'static str,
+    },
+    /// The picture has no such tile.
+    NoSuchTile {
+        /// The column asked for.
+        column: u32,
+        /// The row asked for.
+        row: u32,
+        /// How many columns there are.
+        columns: u32,
+        /// How many rows there are.
+        rows: u32,
+    },
+    /// Two eyes cannot converge at their own distance.
+    Convergence {
+        /// The distance asked for.
+        convergence: f64,
+    },
+    /// Not an invertible view-projection matrix: clip coordinates do not
+    /// determine the point (exactly).
+    SingularMatrix,
+    /// An orthographic matrix whose `W` is not positive, so that nothing is in
+    /// view.
+    NegativeW {
+        /// The constant `W`.
+        w: f64,
+    },
+    /// A matrix whose near and far planes are not parallel to its picture.
+    TiltedDepth {
+        /// The sine of the angle between the `Z` and the `W` row.
+        sine: f64,
+    },
+    /// A matrix whose near plane is not in front of the eye: a wrong depth
+    /// range or reversal, or a negated matrix.
+    NoNearPlane {
+        /// Where the bound for the near plane is met, as clip `W`.
+        w: f64,
+    },
+    /// A matrix whose far plane is behind the eye by more than rounding can do.
+    FarBehindEye {
+        /// Where the bound for the far plane is met, as clip `W`.
+        w: f64,
+    },
 }
 
 impl FrustumError {
@@ -150,6 +210,49 @@ impl fmt::Display for FrustumError {
             Self::Underflow { what } => {
                 write!(f, "{what} is too close to zero for a double")
             }
+            Self::SamePoint { what: [a, b], at } => {
+                write!(f, "{a} and {b} are both {at}; they must differ")
+            }
+            Self::Skew {
+                what: [a, b],
+                cosine,
+            } => write!(
+                f,
+                "the edges to {a} and {b} meet at cosine {cosine}; they must be at a right angle"
+            ),
+            Self::WrongSide { what } => {
+                write!(f, "{what} lies opposite its counterpart on the base")
+            }
+            Self::NoSuchTile {
+                column,
+                row,
+                columns,
+                rows,
+            } => write!(
+                f,
+                "tile {column}, {row} is not among {columns} by {rows}, counted from 0"
+            ),
+            Self::Convergence { convergence } => write!(
+                f,
+                "the convergence is at {convergence}; it must be a number other than 0"
+            ),
+            Self::SingularMatrix => f.write_str("the matrix is singular"),
+            Self::NegativeW { w } => {
+                write!(f, "the matrix gives W = {w} everywhere; W must be positive")
+            }
+            Self::TiltedDepth { sine } => write!(
+                f,
+                "the matrix's near and far planes are not parallel to its picture (sine {sine})"
+            ),
+            Self::NoNearPlane { w } => write!(
+                f,
+                "the matrix's near plane is not in front of the eye (W = {w}): wrong depth range, \
+                 reversal or sign?"
+            ),
+            Self::FarBehindEye { w } => write!(
+                f,
+                "the matrix's far plane is behind the eye (W = {w}): wrong depth range or reversal?"
+            ),
         }
     }
 }

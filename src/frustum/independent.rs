@@ -6,7 +6,7 @@
 //! `8 u` times that sum, plus what underflows. What the filter does not settle
 //! goes to integers.
 
-use super::dyadic::{cross, dot, exact};
+use super::exact_vec::{Rounded, cross, dot, exact};
 use crate::math::Vec3;
 use std::cmp::Ordering;
 
@@ -14,7 +14,7 @@ use std::cmp::Ordering;
 pub(super) fn independent(axes: &[Vec3<f64>; 3]) -> bool {
     certainly_independent(axes) || {
         let [a, b, c] = axes.map(exact);
-        dot(&a, &cross(&b, &c)).sign() != Ordering::Equal
+        dot(&a, &cross(&b, &c)).order() != Ordering::Equal
     }
 }
 

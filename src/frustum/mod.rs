@@ -2,20 +2,31 @@
 
 pub(crate) mod boundary;
 mod camera;
-mod dyadic;
+mod corners;
 mod error;
+mod exact_vec;
 mod face;
 pub(crate) mod filter;
 mod independent;
+mod matrix;
 mod plain;
 mod precise;
 mod shape;
+mod six_points;
+mod trapezoid;
+mod window;
 
 pub use camera::{Camera, Projection};
+pub use corners::{Corners, FarCorners, Plane};
 pub use error::FrustumError;
 pub use face::{Face, FaceSet};
+pub use matrix::{
+    ClipSpace, ClipY, DepthRange, Deviation, MatrixFrustum, MatrixLayout, ViewProjection,
+};
 pub(crate) use plain::{Form, General, Layout, Orthographic, PlainFrustum, Symmetric};
 pub use shape::{Direction, EndRect, Shape};
+pub use six_points::SixPoints;
+pub use trapezoid::{Trapezoid, TrapezoidEnd};
 
 use crate::math::{Pose, Real, Vec3};
 use filter::Filter;

@@ -1,15 +1,17 @@
 //! Boundary values in double-double: the filter's values (see
 //! [`super::filter`]) with a relative error small enough to compute with.
 //!
-//! All six faces are one formula, `sign (c - at - m (z - z_near))` with c a
-//! frame coordinate, so that which face it is costs a look-up and no branch.
-//! The rounded value goes straight through; what each of its operations lost
-//! is computed beside it, exactly for sums and products, and added at the end.
+//! All six faces are one formula, `|c - at - m (z - z_near)|` with c a frame
+//! coordinate, so that which face it is costs a look-up and no branch, and two
+//! faces are evaluated side by side. The rounded value goes straight through;
+//! what each of its operations lost is computed beside it, exactly for sums
+//! and products, and added at the end.
 
 use super::Shape;
 use crate::exact::double_double::Dd;
-use crate::exact::float::{Lanes, Two, split, two_diff, two_prod, two_prod_split, two_sum};
+use crate::exact::float::{split, two_diff, two_prod, two_prod_split, two_sum};
 use crate::math::{Pose, Vec3};
+use wide::f64x2;
 
 /// A face.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -19,9 +21,9 @@ struct Row {
     at: f64,
     /// The slope by z, with its upper and lower half, and what rounding it lost.
     slope: f64,
-    halves: (f64, f64),
+    high: f64,
+    low: f64,
     rest: f64,
-    sign: f64,
 }
 
 /// The six faces, in the order of [`super::Face::ALL`].
@@ -39,21 +41,24 @@ impl Precise {
         let sigma = shape.direction().sign();
         let near = shape.near();
         let bounds = near.rect.to_array();
-        let row = |axis, at, slope: Dd, sign| Row {
-            axis,
-            at,
-            slope: sigma * slope.hi,
-            halves: split(sigma * slope.hi),
-            rest: sigma * slope.lo,
-            sign,
+        let row = |axis, at, slope: Dd| {
+            let (high, low) = split(sigma * slope.hi);
+            Row {
+                axis,
+                at,
+                slope: sigma * slope.hi,
+                high,
+                low,
+                rest: sigma * slope.lo,
+            }
         };
-        let side = |i: usize| row(i / 2, bounds[i], slopes[i], [1.0, -1.0][i % 2]);
+        let side = |i: usize| row(i / 2, bounds[i], slopes[i]);
         let level = Dd::new(0.0, 0.0);
         let far = shape.far().map_or(near.z, |far| far.z);
         Precise {
             rows: [
-                row(2, near.z, level, sigma),
-                row(2, far, level, -sigma),
+                row(2, near.z, level),
+                row(2, far, level),
                 side(0),
                 side(1),
                 side(2),
@@ -64,47 +69,59 @@ impl Precise {
         }
     }
 
-    /// A face's values (by number) at two points, each as a rounded value and
-    /// a small rest; their exact sum is within 60 u^2 scale of the truth.
+    /// Two faces' values (by number) at a point, up to their signs, each as a
+    /// rounded value and a small rest whose exact sum is within 60 u^2 scale of
+    /// the truth.
     #[inline(always)]
-    pub(crate) fn values(&self, face: usize, p: Vec3<f64>, q: Vec3<f64>) -> (Two, Two) {
-        let row = &self.rows[face];
-        let ends = Vec3::new(Two([p.x, q.x]), Two([p.y, q.y]), Two([p.z, q.z]));
+    pub(crate) fn values(&self, faces: [usize; 2], p: Vec3<f64>) -> (f64x2, f64x2) {
+        let [a, b] = faces.map(|face| &self.rows[face]);
+        let all = f64x2::splat;
         let ((z, z_low), (c, c_low)) = match &self.pose {
             None => {
-                let c = Two([p.to_array()[row.axis], q.to_array()[row.axis]]);
-                let none = Two::splat(0.0);
-                ((ends.z, none), (c, none))
+                let c = p.to_array();
+                let zero = all(0.0);
+                ((all(p.z), zero), (f64x2::new([c[a.axis], c[b.axis]]), zero))
             }
-            Some(pose) => (coordinate(pose, 2, ends), coordinate(pose, row.axis, ends)),
+            Some(pose) => {
+                let third = coordinate(pose, [2, 2], p);
+                (third, coordinate(pose, [a.axis, b.axis], p))
+            }
         };
-        let all = Two::splat;
+        let both = |of: fn(&Row) -> f64| f64x2::new([of(a), of(b)]);
+        let slope = both(|row| row.slope);
+        let halves = (both(|row| row.high), both(|row| row.low));
         let (w, w_rest) = two_diff(z, all(self.near));
-        let halves = (all(row.halves.0), all(row.halves.1));
-        let (product, low) = two_prod_split(all(row.slope), halves, w);
-        let low = low + (all(row.slope) * (w_rest + z_low) + all(row.rest) * w);
-        let (across, more) = two_diff(c, all(row.at));
+        let (product, low) = two_prod_split(slope, halves, w);
+        let low = low + (slope * (w_rest + z_low) + both(|row| row.rest) * w);
+        let (across, more) = two_diff(c, both(|row| row.at));
         let (g, rest) = two_diff(across, product);
-        let rest = rest + ((more + c_low) - low);
-        (all(row.sign) * g, all(row.sign) * rest)
+        (g, rest + ((more + c_low) - low))
+    }
+
+    /// The same two values' magnitudes, rounded: relative error below u (1 + 1/2)
+    /// where the filter is certain.
+    #[inline(always)]
+    pub(crate) fn magnitudes(&self, faces: [usize; 2], p: Vec3<f64>) -> f64x2 {
+        let (g, rest) = self.values(faces, p);
+        (g + rest).abs()
     }
 }
 
-/// A frame coordinate as a rounded value and a rest.
+/// Two frame coordinates of a point, each as a rounded value and a rest.
 #[inline(always)]
-fn coordinate(pose: &Pose, k: usize, p: Vec3<Two>) -> (Two, Two) {
-    let all = Two::splat;
-    let (o, a) = (pose.origin.to_array(), pose.axes[k].to_array());
-    let term = |c: Two, j: usize| {
-        let (c, low) = two_diff(c, all(o[j]));
-        let (product, rest) = two_prod(all(a[j]), c);
-        (product, rest + all(a[j]) * low)
+fn coordinate(pose: &Pose, axes: [usize; 2], p: Vec3<f64>) -> (f64x2, f64x2) {
+    let [a, b] = axes.map(|k| pose.axes[k]);
+    let o = pose.origin;
+    let term = |p: f64, o: f64, a: f64, b: f64| {
+        let axis = f64x2::new([a, b]);
+        let (c, low) = two_diff(f64x2::splat(p), f64x2::splat(o));
+        let (product, rest) = two_prod(axis, c);
+        (product, rest + axis * low)
     };
-    let (x, x_rest) = term(p.x, 0);
-    let (y, y_rest) = term(p.y, 1);
-    let (z, z_rest) = term(p.z, 2);
+    let (x, x_rest) = term(p.x, o.x, a.x, b.x);
+    let (y, y_rest) = term(p.y, o.y, a.y, b.y);
+    let (z, z_rest) = term(p.z, o.z, a.z, b.z);
     let (xy, more) = two_sum(x, y);
     let (sum, rest) = two_sum(xy, z);
-    let rest = (rest + more) + ((x_rest + y_rest) + z_rest);
-    two_sum(sum, rest)
+    two_sum(sum, (rest + more) + ((x_rest + y_rest) + z_rest))
 }

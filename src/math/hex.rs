@@ -2,7 +2,7 @@
 //!
 //! The notation is C99's (`%a`): a hexadecimal significand and a power of two.
 //! Decimal text may hide the last bit; a witness that must be replayed bit for
-//! bit may not. [`format`] writes the shortest normalised form, subnormals
+//! bit may not. [`format()`] writes the shortest normalised form, subnormals
 //! included (the smallest is `0x1p-1074`); [`parse_f64`] reads any number of
 //! digits before and after the point and refuses what no double equals, so
 //! that nothing is rounded in silence. Infinities and NaN are written `inf`,

@@ -4,12 +4,14 @@
 //! gives the same bits on every platform. Nothing here knows about frusta.
 
 pub mod hex;
+mod interval;
 mod pose;
 mod real;
 mod rect;
 mod segment;
 mod vec3;
 
+pub use interval::Interval;
 pub use pose::Pose;
 pub(crate) use real::PerReal;
 pub use real::Real;

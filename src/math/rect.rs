@@ -28,7 +28,8 @@ impl Rect {
 
     /// The rectangle centred on the origin with these half-extents.
     pub const fn centred(half_width: f64, half_height: f64) -> Self {
-        Self::new(-half_width, half_width, -half_height, half_height)
+        // Not the sign: a half of 0 would give -0.
+        Self::new(0.0 - half_width, half_width, 0.0 - half_height, half_height)
     }
 
     /// The sides in the order left, right, bottom, top.

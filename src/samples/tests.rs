@@ -95,6 +95,46 @@ mod against_the_oracle {
         all
     }
 
+    /// A family is worth its time if its answers are of several kinds.
+    #[test]
+    fn families_reach_what_they_are_for() {
+        for &family in Family::ALL {
+            let (mut classes, mut surface, mut cases) = (BTreeSet::new(), 0, 0);
+            for block in 0..24 {
+                let scene = family.scene(1, block);
+                let oracle = Oracle::new(scene.frustum());
+                for index in block * BLOCK..block * BLOCK + 8 {
+                    let segment = family.segment::<f64>(&scene, 1, index);
+                    let truth = oracle.clip(&segment).unwrap();
+                    classes.insert(truth.class);
+                    let part = truth.part.as_ref();
+                    surface += usize::from(part.is_some_and(|p| !p.entry.faces.is_empty()));
+                    cases += 1;
+                }
+            }
+            assert!(classes.len() >= 3, "{family}: {classes:?}");
+            assert!(
+                surface * 8 > cases,
+                "{family}: {surface} of {cases} on the surface"
+            );
+        }
+    }
+
+    #[test]
+    fn close_crossings_are_closer_than_promised() {
+        let bound = BigRational::new(1.into(), num_bigint::BigInt::from(1) << 100);
+        let mut crossed = 0;
+        for index in 0..640 {
+            let (frustum, segment) = Family::CrossingClose.case(9, index);
+            let truth = Oracle::new(&frustum).clip(&segment).unwrap();
+            if let Some(part) = truth.part.filter(|p| p.entry.clipped && p.exit.clipped) {
+                assert!(part.exit.t - part.entry.t < bound);
+                crossed += 1;
+            }
+        }
+        assert!(crossed > 50, "{crossed}");
+    }
+
     #[test]
     fn every_sample_in_every_placement() {
         let mut tried = 0;
@@ -125,5 +165,50 @@ mod against_the_oracle {
             }
         }
         assert_eq!(tried, (4 * 104 + 2 * 72 + 2 * 68) * placements().len());
+    }
+}
+
+#[test]
+fn family_names_are_unique_and_parse() {
+    let names: BTreeSet<_> = Family::ALL.iter().map(|f| f.name()).collect();
+    assert_eq!(names.len(), Family::ALL.len());
+    for &family in Family::ALL {
+        assert_eq!(family.name().parse(), Ok(family));
+    }
+    assert!("no-such".parse::<Family>().is_err());
+}
+
+#[test]
+fn cases_are_finite_and_reproducible() {
+    for &family in Family::ALL {
+        for index in 0..300 {
+            let (frustum, segment) = family.case(5, index);
+            assert!(segment.check_finite().is_ok(), "{family} {index}");
+            let (again, same) = family.case(5, index);
+            assert_eq!(segment, same, "{family} {index}");
+            assert_eq!(frustum.pose(), again.pose(), "{family} {index}");
+            assert_eq!(frustum.shape(), again.shape(), "{family} {index}");
+            if let Some((_, single)) = family.case_f32(5, index) {
+                assert!(single.check_finite().is_ok(), "{family} {index}");
+            }
+        }
+    }
+}
+
+#[test]
+fn seeds_make_a_difference() {
+    for &family in Family::ALL {
+        let differ = (0..64).filter(|&i| family.case(1, i).1 != family.case(2, i).1);
+        assert!(differ.count() > 32, "{family}");
+    }
+}
+
+#[test]
+fn no_family_falls_back_on_another_shape() {
+    for &family in Family::ALL {
+        let made = (0..400).filter(|&b| scene::Scene::attempt(family, 3, b, 0).is_some());
+        // Tiny integer rectangles may be flat; then the next attempt serves.
+        let made = made.count();
+        assert!(made > 250, "{family}: {made} of 400");
     }
 }

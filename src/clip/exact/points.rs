@@ -23,8 +23,7 @@ use crate::clip::{Accuracy, Part, PartEnd, SegmentClip};
 use crate::exact::Number;
 use crate::exact::double_double::Dd;
 use crate::exact::dyadic::Dyadic;
-use crate::exact::float::Two;
-use crate::frustum::filter::{Filter, Values};
+use crate::frustum::filter::Filter;
 use crate::frustum::{Face, FaceSet};
 use crate::math::{End, Real, Segment, Vec3};
 use std::cmp::Ordering;
@@ -117,7 +116,7 @@ fn crossing<T: Real>(
 }
 
 /// Where on the segment, seen from the end with the smaller boundary value.
-pub(super) struct Step {
+struct Step {
     /// The end, by number.
     from: usize,
     tau: f64,
@@ -145,15 +144,11 @@ fn lesser(segment: &Segment<f64>) -> usize {
     usize::from(segment.start.to_array() > segment.end.to_array())
 }
 
-/// How far the rounded values must be from zero for f32 output: their error is
-/// below a tenth of a threshold, so then below 2^-25 of them.
-const F32_FACTOR: f64 = 4_194_304.0;
-
 /// The step to a crossed face. The way its boundary values are found depends
 /// on the two points and the face alone, not on which point comes first nor on
-/// the algorithm: rounded values where they are good enough, else
-/// double-double, else exact.
-fn step<T: Real>(staged: &mut Staged<'_>, face: Face) -> Step {
+/// the algorithm: rounded values where they are exact, double-double where the
+/// filter is certain, else exact.
+fn step(staged: &mut Staged<'_>, face: Face) -> Step {
     if staged.lattice {
         let [p, q] = [0, 1].map(|i| staged.values[i].g[face as usize].abs());
         return Step::new(p, q, &staged.segment);
@@ -166,35 +161,18 @@ fn step<T: Real>(staged: &mut Staged<'_>, face: Face) -> Step {
             .values
             .iter()
             .all(|v| v.g[face as usize].abs() < f64::MAX / 4.0);
-    if depth || staged.certain(face, 1.0) {
-        let filter = staged.filter();
-        return certain_step::<T>(filter, &staged.segment, &staged.values, face as usize);
+    if depth || staged.certain(face) {
+        let Segment { start, end } = staged.segment;
+        let value = |p| {
+            staged
+                .filter()
+                .precise
+                .magnitudes([face as usize; 2], p)
+                .to_array()[0]
+        };
+        return Step::new(value(start), value(end), &staged.segment);
     }
     exact_step(staged, face)
-}
-
-/// The same for a face (by number) whose values' signs the filter settles.
-#[inline(always)]
-pub(super) fn certain_step<T: Real>(
-    filter: &Filter,
-    segment: &Segment<f64>,
-    values: &[Values; 2],
-    face: usize,
-) -> Step {
-    if T::DIGITS == 24 {
-        let [p, q] = values.each_ref().map(|v| v.g[face]);
-        let far = |g: f64, v: &Values| {
-            let side = filter.side_threshold(v.size);
-            let depth = filter.depth_threshold(v.size);
-            g.abs() > F32_FACTOR * if face < 2 { depth } else { side }
-        };
-        if far(p, &values[0]) && far(q, &values[1]) {
-            return Step::new(p.abs(), q.abs(), segment);
-        }
-    }
-    let (g, rest) = filter.precise.values(face, segment.start, segment.end);
-    let Two([a, b]) = g + rest;
-    Step::new(a.abs(), b.abs(), segment)
 }
 
 #[cold]
@@ -220,13 +198,13 @@ fn sum(a: &Dyadic, b: &Dyadic) -> Dyadic {
 }
 
 fn fast<T: Real>(staged: &mut Staged<'_>, face: Face, faces: FaceSet) -> (T, Vec3<T>) {
-    let step = step::<T>(staged, face);
+    let step = step(staged, face);
     place(staged.filter(), &staged.segment, step, faces)
 }
 
 /// Parameter and point of a step.
 #[inline(always)]
-pub(super) fn place<T: Real>(
+fn place<T: Real>(
     filter: &Filter,
     segment: &Segment<f64>,
     Step { from, tau }: Step,
@@ -263,7 +241,7 @@ fn huge(segment: &Segment<f64>, base: Vec3<f64>, tau: f64) -> Vec3<f64> {
 
 /// Correctly rounded parameter and point.
 fn nearest<T: Real>(staged: &mut Staged<'_>, face: Face) -> (T, Vec3<T>) {
-    if staged.certain(face, 1.0)
+    if staged.certain(face)
         && let Some(result) = nearest_double_double(staged, face)
     {
         return result;
@@ -278,8 +256,11 @@ const DD_ERROR: f64 = 1.5777218104420236e-30;
 fn nearest_double_double<T: Real>(staged: &Staged<'_>, face: Face) -> Option<(T, Vec3<T>)> {
     let filter = staged.filter();
     let Segment { start, end } = staged.segment;
-    let (g, rest) = filter.precise.values(face as usize, start, end);
-    let [a, b] = [0, 1].map(|i| Dd::new(g.0[i], rest.0[i]).normal().abs());
+    let value = |p| {
+        let (g, rest) = filter.precise.values([face as usize; 2], p);
+        Dd::new(g.to_array()[0], rest.to_array()[0]).normal().abs()
+    };
+    let (a, b) = (value(start), value(end));
     let total = a.add(b);
     let from_start = a.hi <= b.hi;
     let tau = if from_start { a } else { b }.div(total);

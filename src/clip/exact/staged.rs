@@ -77,13 +77,12 @@ impl<'a> Staged<'a> {
         }
     }
 
-    /// Whether a face's rounded values at both ends exceed `factor` thresholds.
+    /// Whether a face's rounded values at both ends exceed their thresholds.
     #[inline(always)]
-    pub(crate) fn certain(&self, face: Face, factor: f64) -> bool {
+    pub(crate) fn certain(&self, face: Face) -> bool {
         let filter = self.filter();
         self.values.iter().all(|v| {
-            filter.covers(v.size)
-                && v.g[face as usize].abs() > factor * filter.threshold(face, v.size)
+            filter.covers(v.size) && v.g[face as usize].abs() > filter.threshold(face, v.size)
         })
     }
 

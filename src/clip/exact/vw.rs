@@ -18,20 +18,18 @@
 //! signs, `p~/(p~ - q~)` differs from `p/(p - q)` by at most e / |p~ - q~|
 //! (put the difference over one denominator). Rounding of the difference, its
 //! reciprocal and the product add less than 4 u. The code takes a whole
-//! threshold for e, which is 13 times what the values can be off, and 2^-50.
+//! threshold for e, which is 13 times what the values can be off, and 2^-48.
 
-use super::decide::{At, Decision};
-use super::points;
-use super::staged::Staged;
 use crate::clip::predicates::{Predicates, Span};
 use crate::clip::{Accuracy, Class, Part, PartEnd, SegmentClip, StageCounts};
 use crate::frustum::filter::{FLOOR, Filter, Values};
-use crate::frustum::{Face, FaceSet, Form, Frustum, General, Layout, Orthographic, Symmetric};
+use crate::frustum::{FaceSet, Form, Frustum, General, Layout, Orthographic, Symmetric};
 use crate::math::{End, NonFinite, Real, Segment, Vec3};
 use std::cmp::Ordering;
+use wide::f64x2;
 
-/// 2^-50.
-const ROUNDING: f64 = 8.881784197001252e-16;
+/// 2^-48: rounding, and the face's number in the last three bits.
+const ROUNDING: f64 = 3.552713678800501e-15;
 
 /// Clips with exact class and sets.
 #[inline]
@@ -63,41 +61,42 @@ fn clip_in<T: Real, L: Layout>(
     let wide = segment.to_f64();
     let p = filter.values_in::<L>(wide.start);
     let q = filter.values_in::<L>(wide.end);
-    match certify(filter, &p, &q) {
-        Certificate::Outside => Ok(SegmentClip::OUTSIDE),
-        Certificate::Inside => Ok(inside(segment)),
-        Certificate::Cross(entered, left) if accuracy == Accuracy::Fast => {
-            Ok(fast(filter, segment, &wide, &[p, q], [entered, left]))
-        }
-        Certificate::Cross(entered, left) => {
-            let mut staged = Staged::with(frustum, wide, [p, q], false);
-            let decision = crossing([entered, left]);
-            let result = points::build(&mut staged, segment, &decision, accuracy);
-            staged.add_to(counts);
-            Ok(result)
-        }
-        Certificate::None => super::clip(frustum, segment, accuracy, counts, |s| span(s)),
+    match triage(filter, &p, &q) {
+        Triage::Outside => Ok(SegmentClip::OUTSIDE),
+        Triage::Inside => Ok(inside(segment)),
+        Triage::Crossing => cross(frustum, segment, accuracy, counts, &p, &q),
+        Triage::Unsure => super::clip(frustum, segment, accuracy, counts, |s| span(s)),
     }
 }
 
-/// What rounded values prove.
-enum Certificate {
-    Outside,
-    Inside,
-    /// Crosses one face at each end that is clipped.
-    Cross(FaceSet, FaceSet),
-    /// Nothing.
-    None,
-}
-
+/// Clips what certainly has ends on both sides of some faces.
 #[inline(always)]
-fn certify(filter: &Filter, p: &Values, q: &Values) -> Certificate {
-    let size = p.size + q.size;
-    if !filter.covers(size) {
-        return Certificate::None;
+fn cross<T: Real>(
+    frustum: &Frustum,
+    segment: &Segment<T>,
+    accuracy: Accuracy,
+    counts: &mut StageCounts,
+    p: &Values,
+    q: &Values,
+) -> Result<SegmentClip<T>, NonFinite> {
+    let filter = frustum.filter();
+    let thresholds = thresholds(filter, p.size + q.size);
+    match certify(&pairs(&p.g), &pairs(&q.g), thresholds) {
+        Certificate::Outside => return Ok(SegmentClip::OUTSIDE),
+        Certificate::Cross(crossing) if accuracy == Accuracy::Fast => {
+            if let Some(result) = fast(filter, segment, &crossing) {
+                return Ok(result);
+            }
+        }
+        Certificate::Cross(_) | Certificate::None => {}
     }
-    // Thresholds grow with the size, so these serve both ends.
-    let side = filter.side_threshold(size);
+    super::clip(frustum, segment, accuracy, counts, |s| span(s))
+}
+
+/// The thresholds of depth and sides for both ends, from the sum of their
+/// sizes: thresholds grow with it.
+#[inline(always)]
+fn thresholds(filter: &Filter, size: f64) -> (f64, f64) {
     // With the identity pose near and far values are differences of two
     // doubles: relative error u, and all that counts is that their reciprocals
     // are finite.
@@ -106,160 +105,183 @@ fn certify(filter: &Filter, p: &Values, q: &Values) -> Certificate {
     } else {
         filter.depth_threshold(size)
     };
-    let (a, b) = (&p.g, &q.g);
-    let greater = |i: usize| max(a[i], b[i]);
-    if min(greater(0), greater(1)) < -depth
-        || min(greater(2), greater(3)) < -side
-        || min(greater(4), greater(5)) < -side
-    {
-        return Certificate::Outside;
+    (depth, filter.side_threshold(size))
+}
+
+/// What the rounded values' signs prove.
+enum Triage {
+    Outside,
+    Inside,
+    /// All signs are certain; some face is crossed.
+    Crossing,
+    Unsure,
+}
+
+/// (near, far), (left, right), (bottom, top).
+#[inline(always)]
+fn pairs(g: &[f64; 6]) -> [f64x2; 3] {
+    let pair = |i: usize| f64x2::new([g[i], g[i + 1]]);
+    [pair(0), pair(2), pair(4)]
+}
+
+#[inline(always)]
+fn triage(filter: &Filter, p: &Values, q: &Values) -> Triage {
+    let size = p.size + q.size;
+    if !filter.covers(size) {
+        return Triage::Unsure;
     }
-    let lesser = |i: usize| min(a[i], b[i]);
-    let least_depth = min(lesser(0), lesser(1));
-    let least_side = min(min(lesser(2), lesser(3)), min(lesser(4), lesser(5)));
-    if least_depth > depth && least_side > side {
-        return Certificate::Inside;
+    let (depth, side) = thresholds(filter, size);
+    let (depth, side) = (f64x2::splat(depth), f64x2::splat(side));
+    let (a, b) = (pairs(&p.g), pairs(&q.g));
+    let greater = |i: usize| a[i].fast_max(b[i]);
+    let sides = greater(1).fast_min(greater(2));
+    if (greater(0).simd_lt(-depth) | sides.simd_lt(-side)).any() {
+        return Triage::Outside;
     }
-    let nearest = |i: usize| min(a[i].abs(), b[i].abs());
-    let sure = min(nearest(0), nearest(1)) > depth
-        && min(min(nearest(2), nearest(3)), min(nearest(4), nearest(5))) > side;
-    if sure {
-        certify_crossing(a, b, depth, side)
+    let beyond = |v: [f64x2; 3]| (v[0].simd_gt(depth) & v[1].fast_min(v[2]).simd_gt(side)).all();
+    if beyond([0, 1, 2].map(|i| a[i].fast_min(b[i]))) {
+        return Triage::Inside;
+    }
+    if beyond([0, 1, 2].map(|i| a[i].abs().fast_min(b[i].abs()))) {
+        Triage::Crossing
     } else {
-        Certificate::None
+        Triage::Unsure
     }
+}
+
+/// What rounded parameters prove.
+enum Certificate {
+    Outside,
+    /// Crosses one face at each end that is clipped.
+    Cross(Crossing),
+    /// Nothing.
+    None,
+}
+
+/// The face crossed at entry and exit, by number, and whether it is: else the
+/// number stands for nothing.
+struct Crossing {
+    faces: [usize; 2],
+    clipped: [bool; 2],
+}
+
+/// The greatest two of six numbers in pairs `v`, and of six in `w`: greatest
+/// of both, then second of both.
+#[inline(always)]
+fn greatest_two(v: [f64x2; 3], w: [f64x2; 3]) -> (f64x2, f64x2) {
+    let lanes = |v: [f64x2; 3]| {
+        let (high, low) = (v[0].fast_max(v[1]), v[0].fast_min(v[1]));
+        (high.fast_max(v[2]), low.fast_max(high.fast_min(v[2])))
+    };
+    let ((v, v_second), (w, w_second)) = (lanes(v), lanes(w));
+    let [a, b] = f64x2::transpose([v, w]);
+    let [c, d] = f64x2::transpose([v_second, w_second]);
+    (a.fast_max(b), a.fast_min(b).fast_max(c.fast_max(d)))
 }
 
 /// For values of certain sign, some of them negative. Selects, not branches:
-/// which faces are crossed cannot be predicted.
+/// which faces are crossed cannot be predicted. The number of the face rides
+/// in the parameter's last three bits.
 #[inline(always)]
-fn certify_crossing(a: &[f64; 6], b: &[f64; 6], depth: f64, side: f64) -> Certificate {
-    // Parameters of entering and leaving faces; faces that are not crossed
-    // stand where they change nothing.
-    let (mut enter, mut leave, mut scales) = ([0.0; 6], [0.0; 6], [0.0; 6]);
-    for i in 0..6 {
-        let scale = 1.0 / (a[i] - b[i]);
+fn certify(a: &[f64x2; 3], b: &[f64x2; 3], (depth, side): (f64, f64)) -> Certificate {
+    let all = f64x2::splat;
+    let keep = all(f64::from_bits(!7));
+    // The later of entries, and the later of exits, where later is less: faces
+    // that are not crossed stand where they change nothing.
+    let (mut enter, mut leave, mut scales) = ([all(0.0); 3], [all(0.0); 3], [all(0.0); 3]);
+    for i in 0..3 {
+        let number = [2 * i as u64, 2 * i as u64 + 1].map(f64::from_bits);
+        let scale = all(1.0) / (a[i] - b[i]);
         let t = a[i] * scale;
-        enter[i] = where_negative(a[i], t, -1.0);
-        leave[i] = where_negative(b[i], t, 2.0);
-        scales[i] = where_negative(a[i] * b[i], scale.abs(), 0.0);
+        let (entering, leaving) = (a[i].simd_lt(all(0.0)), b[i].simd_lt(all(0.0)));
+        enter[i] = (entering.bitselect(t, all(-1.0)) & keep) | f64x2::new(number);
+        leave[i] = (leaving.bitselect(-t, all(-2.0)) & keep) | f64x2::new(number);
+        scales[i] = (entering ^ leaving) & scale.abs();
     }
-    let depth_scale = max(scales[0], scales[1]);
-    let side_scale = max(max(scales[2], scales[3]), max(scales[4], scales[5]));
     // What two parameters can be off, together.
-    let error = 2.0 * (max(depth * depth_scale, side * side_scale) + ROUNDING);
-    let last_enter = greatest(&enter);
-    let first_leave = least(&leave);
-    if last_enter > first_leave + error {
+    let error = (all(depth) * scales[0]).fast_max(all(side) * scales[1].fast_max(scales[2]));
+    let [e, f] = error.to_array();
+    let error = 2.0 * (if e > f { e } else { f } + ROUNDING);
+    let (first, second) = greatest_two(enter, leave);
+    let [last_enter, minus_first_leave] = first.to_array();
+    let overlap = last_enter + minus_first_leave;
+    if overlap > error {
         return Certificate::Outside;
     }
-    let (mut entered, mut left) = (0_u8, 0_u8);
-    for i in 0..6 {
-        entered |= u8::from(enter[i] >= last_enter - error) << i;
-        left |= u8::from(leave[i] <= first_leave + error) << i;
-    }
-    // With none crossed, all stand at -1 or 2.
-    let entered = if last_enter < -0.5 { 0 } else { entered };
-    let left = if first_leave > 1.5 { 0 } else { left };
-    let apart = last_enter + error < first_leave;
-    let single = |set: u8| set & set.wrapping_sub(1) == 0;
-    if apart & single(entered) & single(left) {
-        Certificate::Cross(FaceSet::from_bits(entered), FaceSet::from_bits(left))
+    let uncrossed = first.simd_lt(f64x2::new([-0.5, -1.5]));
+    let single = (second + all(error)).simd_lt(first) | uncrossed;
+    if single.all() & (overlap < -error) {
+        let clipped = !uncrossed.to_bitmask();
+        Certificate::Cross(Crossing {
+            faces: [last_enter, minus_first_leave].map(|v| (v.to_bits() & 7) as usize),
+            clipped: [clipped & 1 != 0, clipped & 2 != 0],
+        })
     } else {
         Certificate::None
     }
 }
 
-/// `then` where the sign bit of `v` is set, else `other`; no branch.
-#[inline(always)]
-fn where_negative(v: f64, then: f64, other: f64) -> f64 {
-    let mask = (v.to_bits().cast_signed() >> 63).cast_unsigned();
-    f64::from_bits((then.to_bits() & mask) | (other.to_bits() & !mask))
-}
-
-#[inline(always)]
-fn max(a: f64, b: f64) -> f64 {
-    if a > b { a } else { b }
-}
-
-#[inline(always)]
-fn min(a: f64, b: f64) -> f64 {
-    if a < b { a } else { b }
-}
-
-#[inline(always)]
-fn greatest(v: &[f64; 6]) -> f64 {
-    max(max(max(v[0], v[1]), max(v[2], v[3])), max(v[4], v[5]))
-}
-
-#[inline(always)]
-fn least(v: &[f64; 6]) -> f64 {
-    min(min(min(v[0], v[1]), min(v[2], v[3])), min(v[4], v[5]))
-}
-
-/// The faces of a certain crossing, one at each clipped end: nothing is on a
-/// face, and there are no ties.
+/// Constructs both ends of a certain crossing side by side, by the rule of
+/// [`super::points`]; `None` for its tie of equal boundary values.
 #[inline(always)]
 fn fast<T: Real>(
     filter: &Filter,
     segment: &Segment<T>,
-    wide: &Segment<f64>,
-    values: &[Values; 2],
-    [entered, left]: [FaceSet; 2],
-) -> SegmentClip<T> {
-    let entry = fast_end(filter, (T::ZERO, segment.start), wide, values, entered);
-    let mut exit = fast_end(filter, (T::ONE, segment.end), wide, values, left);
+    crossing: &Crossing,
+) -> Option<SegmentClip<T>> {
+    let Segment { start, end } = segment.to_f64();
+    let all = f64x2::splat;
+    let a = filter.precise.magnitudes(crossing.faces, start);
+    let b = filter.precise.magnitudes(crossing.faces, end);
+    if a.simd_eq(b).any() {
+        return None;
+    }
+    let from_end = b.simd_lt(a);
+    let tau = a.fast_min(b) / (a + b);
+    let t = from_end.bitselect(all(1.0) - tau, tau);
+    let signed = from_end.bitselect(-tau, tau);
+    let place = |p: f64, q: f64| {
+        let point = from_end.bitselect(all(q), all(p)) + signed * all(q - p);
+        point.to_array().map(T::from_f64)
+    };
+    let (x, y) = (place(start.x, end.x), place(start.y, end.y));
+    let z = place(start.z, end.z);
+    let t = t.to_array().map(T::from_f64);
+    let own = [(T::ZERO, segment.start), (T::ONE, segment.end)];
+    let finish = |i: usize| {
+        let clipped = crossing.clipped[i];
+        let face = crossing.faces[i];
+        let z = if filter.identity && face < 2 {
+            T::from_f64([filter.near, filter.far][face])
+        } else {
+            z[i]
+        };
+        let (t, point) = if clipped {
+            (t[i], Vec3::new(x[i], y[i], z))
+        } else {
+            own[i]
+        };
+        PartEnd {
+            t,
+            point,
+            clipped,
+            faces: FaceSet::from_bits(u8::from(clipped) << face),
+            inward: !clipped,
+        }
+    };
+    let entry = finish(0);
+    let mut exit = finish(1);
     if exit.t < entry.t {
         exit.t = entry.t;
     }
-    SegmentClip {
+    Some(SegmentClip {
         class: Class::Cross,
         part: Some(Part {
             entry,
             exit,
             coplanar: FaceSet::EMPTY,
         }),
-    }
-}
-
-#[inline(always)]
-fn fast_end<T: Real>(
-    filter: &Filter,
-    own: (T, Vec3<T>),
-    wide: &Segment<f64>,
-    values: &[Values; 2],
-    faces: FaceSet,
-) -> PartEnd<T> {
-    let clipped = !faces.is_empty();
-    let (t, point) = if clipped {
-        let face = faces.bits().trailing_zeros() as usize;
-        let step = points::certain_step::<T>(filter, wide, values, face);
-        points::place(filter, wide, step, faces)
-    } else {
-        own
-    };
-    PartEnd {
-        t,
-        point,
-        clipped,
-        faces,
-        inward: !clipped,
-    }
-}
-
-/// The decision for certain crossings: nothing on a face, no ties.
-fn crossing(faces: [FaceSet; 2]) -> Decision {
-    let at = |face: Option<Face>, end| face.map_or(At::End(end), At::Crossing);
-    Decision {
-        class: Class::Cross,
-        at: [
-            at(faces[0].first(), End::Start),
-            at(faces[1].first(), End::End),
-        ],
-        clipped: faces.map(|set| !set.is_empty()),
-        faces,
-        coplanar: FaceSet::EMPTY,
-    }
+    })
 }
 
 #[inline(always)]

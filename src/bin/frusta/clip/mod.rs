@@ -1,0 +1,198 @@
+//! `frusta clip`: the part of each of a file's segments that is in a frustum.
+//!
+//! ```text
+//! reader:  numbers of the scene's edges, or rows of a CSV file, in chunks
+//! workers: edges to world coordinates; clip; count; format
+//! writer:  the formatted chunks, in order
+//! ```
+
+mod run;
+mod source;
+
+use crate::engine::{Accuracy, Algorithm, Arithmetic, Engine};
+use crate::failure::Failure;
+use crate::input::{EdgeChoice, Format};
+use crate::number::Scalar;
+use crate::output::{self, Kind, Writer};
+use crate::stats::{Report, Times};
+use crate::view::ViewArgs;
+use clap::{Args, ValueEnum};
+use run::Run;
+use source::Source;
+use std::io::{ErrorKind, Write};
+use std::path::PathBuf;
+use std::time::Instant;
+
+/// Clip the segments of a file by a view frustum
+///
+/// Reads line segments from FILE, clips each, and writes the parts, a picture of them, or only
+/// statistics. Classes and faces are exact unless --arithmetic plain is asked for.
+#[derive(Args, Debug)]
+#[command(after_help = HELP_END, after_long_help = LONG_HELP_END)]
+pub(crate) struct ClipArgs {
+    /// What to clip: .glb, .gltf, .obj, or .csv with a segment x0,y0,z0,x1,y1,z1 a row
+    file: PathBuf,
+    /// Write the result: .csv (a row a segment), .obj (lines), .svg (what the camera sees)
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+    /// Statistics as JSON on the standard output
+    #[arg(long)]
+    json: bool,
+    /// Edges to take from a mesh [default: lines if the file has any, else triangles]
+    #[arg(long)]
+    edges: Option<EdgeChoice>,
+    /// The algorithm
+    #[arg(long, default_value = "vw")]
+    algorithm: Algorithm,
+    /// What its decisions are computed with
+    #[arg(long, default_value = "exact")]
+    arithmetic: Arithmetic,
+    /// With exact arithmetic: how clipped points are computed [default: fast]
+    #[arg(long)]
+    accuracy: Option<Accuracy>,
+    /// The type of the segments' coordinates
+    #[arg(long, default_value = "f64")]
+    precision: Precision,
+    /// Threads that clip [default: one a core]; the output does not depend on it
+    #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u16).range(1..=256))]
+    threads: Option<u16>,
+    #[command(flatten)]
+    view: ViewArgs,
+}
+
+/// `--precision`
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Precision {
+    /// Single: coordinates are rounded to it before they are clipped
+    F32,
+    /// Double
+    F64,
+}
+
+/// Runs the command.
+pub(crate) fn run(args: &ClipArgs) -> Result<(), Failure> {
+    match args.precision {
+        Precision::F32 => run_as::<f32>(args),
+        Precision::F64 => run_as::<f64>(args),
+    }
+}
+
+fn run_as<T: Scalar>(args: &ClipArgs) -> Result<(), Failure> {
+    let start = Instant::now();
+    if args.arithmetic == Arithmetic::Plain && args.accuracy.is_some() {
+        return Err(Failure::new("--accuracy is for --arithmetic exact"));
+    }
+    let format = Format::of(&args.file)?;
+    let kind = Kind::of(args.output.as_deref())?;
+    let source = Source::open(&args.file, format, args.edges)?;
+    let view = args.view.view(|| source.bounds())?;
+    let accuracy = args.accuracy.unwrap_or(Accuracy::Fast);
+    let run = Run {
+        engine: Engine::<T>::new(args.algorithm, args.arithmetic, accuracy),
+        output: output::Format::new(kind, &view.frustum),
+        threads: args.threads.map_or_else(cores, usize::from),
+        source: &source,
+        frustum: &view.frustum,
+    };
+    let mut writer = Writer::create(&run.output, args.output.as_deref())?;
+    let mut times = Times {
+        read: start.elapsed(),
+        ..Times::default()
+    };
+    let counts = run.clip(&mut writer, &mut times)?;
+    let finish = Instant::now();
+    let title = format!("{}   {}", args.file.display(), view.flags);
+    writer.finish(&title, &counts.classes)?;
+    times.write += finish.elapsed();
+    times.total = start.elapsed();
+    let (arithmetic, accuracy) = run.engine.arithmetic();
+    let report = Report {
+        file: args.file.display().to_string(),
+        format: format.name(),
+        edges: source.edges(),
+        algorithm: run.engine.name(),
+        arithmetic,
+        accuracy,
+        precision: T::NAME,
+        threads: run.threads,
+        flags: &view.flags,
+        chosen: view.chosen,
+        frustum: &view.frustum,
+        output: args.output.as_ref().map(|o| o.display().to_string()),
+        counts,
+        staged: run.engine.counts(),
+        times,
+    };
+    print(&if args.json {
+        format!("{:#}\n", report.to_json())
+    } else {
+        report.to_table()
+    })
+}
+
+fn cores() -> usize {
+    std::thread::available_parallelism().map_or(1, usize::from)
+}
+
+/// To the standard output; a reader that has gone away is no failure.
+fn print(text: &str) -> Result<(), Failure> {
+    match std::io::stdout().write_all(text.as_bytes()) {
+        Err(e) if e.kind() != ErrorKind::BrokenPipe => {
+            Err(Failure::new(format_args!("standard output: {e}")))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// The end of `-h`.
+const HELP_END: &str = "More with --help: formats, examples, exit codes.";
+
+/// The end of `--help`.
+const LONG_HELP_END: &str = concat!(
+    "\
+Input
+  .glb .gltf  The default scene's line (mode 1 to 3) or triangle (mode 4 to 6) primitives through
+              all node transforms, composed in double precision. Sparse accessors, quantized
+              positions, data URIs and buffer files work; skins and morph targets are not applied.
+  .obj        v, l and f. A polygon counts as its outline.
+  .csv        x0,y0,z0,x1,y1,z1, decimal or hexadecimal (0x1.8p-3); read as a stream. With a header
+              the columns are found by name among others. Lines that begin with # are comments.
+  With --edges triangles each edge of a mesh comes once, wherever its vertices are split.
+  A coordinate that is infinite or NaN is an error.
+
+Output, whole or not at all
+  .csv  index,class,t0,t1,x0,y0,z0,x1,y1,z1,enter,leave,coplanar; a row a segment, in the input's
+        order. class: outside, touch, boundary, inside or cross; t0..t1: the part's parameters;
+        enter, leave, coplanar: faces joined by + (near far left right bottom top) whose planes
+        contain the entry point, the exit point, the whole segment. Numbers read back to the same
+        bits. For outside the fields after class are empty.
+  .obj  two vertices and a line element for each part; a vertex and a point element for a touch.
+  .svg  what the camera sees, from the near rectangle's side, hidden lines included; places are
+        rounded to a tenth of a pixel, or more where the strokes would be too many for a viewer.
+
+Frustum files (--frustum); any number may be a text with a hexadecimal float
+  {\"origin\":[0,0,0], \"axes\":[[1,0,0],[0,1,0],[0,0,1]],
+   \"near\":{\"z\":-1,\"left\":-1,\"right\":1,\"bottom\":-1,\"top\":1}, \"far\":{...}}
+  the same with \"slopes\":{\"left\":-1,\"right\":1,\"bottom\":-1,\"top\":1}, \"direction\":1 instead of
+   \"far\": no far face; the sides' bounds change by the slopes for each unit of depth
+  {\"eye\":[0,0,5], \"target\":[0,0,0], \"up\":[0,1,0], \"fovy_deg\":45 or \"ortho_height\":2,
+   \"aspect\":1.5, \"near\":0.1, \"far\":100 or \"inf\"}
+  {\"matrix\":[16 numbers], \"layout\":\"column-major\" or \"row-major\", \"depth\":\"0..1\" or \"-1..1\",
+   \"reversed\":false, \"y\":\"up\" or \"down\", \"precision\":\"f64\" or \"f32\"}: view and projection,
+   for column vectors; the last three keys may be left out
+
+Examples
+  frusta clip part.glb
+      which edges a default camera takes in; prints the flags that give the same camera again
+  frusta clip part.glb --up 0,-1,0 -o view.svg
+      a picture, for a model whose y points downwards
+  frusta clip edges.csv --eye 0,0,5 --target 0,0,0 --near 1 --far inf -o clipped.csv
+      every row's part in an infinite frustum
+  frusta clip edges.csv --frustum view.json --accuracy inward --json
+      statistics, with clipped points that never lie outside
+
+Exit codes
+  0  done
+  2  wrong usage, or a file that cannot be read, makes no sense or cannot be written; one line on
+     the error stream names the file, the place in it and the reason, and no output file is left"
+);

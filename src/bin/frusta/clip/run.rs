@@ -1,0 +1,101 @@
+//! Clipping a source through the pipeline.
+
+use super::source::{Chunk, Source};
+use crate::engine::Engine;
+use crate::failure::Failure;
+use crate::number::Scalar;
+use crate::output::{self, Formatted, Writer};
+use crate::pipeline;
+use crate::stats::{Counts, Times};
+use frusta::{Frustum, Segment, SegmentClip};
+use indicatif::{ProgressBar, ProgressStyle};
+use std::time::{Duration, Instant};
+
+/// What to do.
+pub(super) struct Run<'a, T> {
+    pub(super) engine: Engine<T>,
+    pub(super) output: output::Format,
+    pub(super) threads: usize,
+    pub(super) source: &'a Source,
+    pub(super) frustum: &'a Frustum,
+}
+
+/// What a worker makes of a chunk.
+struct Done {
+    formatted: Formatted,
+    counts: Counts,
+    read: Duration,
+    clip: Duration,
+    write: Duration,
+    position: u64,
+}
+
+impl<T: Scalar> Run<'_, T> {
+    /// Clips everything; adds to the times.
+    pub(super) fn clip(&self, writer: &mut Writer, times: &mut Times) -> Result<Counts, Failure> {
+        let bar = progress_bar(self.source.size());
+        let mut counts = Counts::default();
+        let mut next = self.source.chunks::<T>()?;
+        let timed = || {
+            let start = Instant::now();
+            let chunk = next()?;
+            Ok(chunk.map(|(chunk, position)| (chunk, position, start.elapsed())))
+        };
+        let result = pipeline::run(
+            self.threads,
+            timed,
+            || self.worker(),
+            |done: Done| {
+                let start = Instant::now();
+                writer.accept(&done.formatted)?;
+                counts.merge(&done.counts);
+                times.read += done.read;
+                times.clip += done.clip;
+                times.write += done.write + start.elapsed();
+                bar.set_position(done.position);
+                Ok(())
+            },
+        );
+        bar.finish_and_clear();
+        result.map(|()| counts)
+    }
+
+    /// A worker with buffers of its own, which it uses again for each chunk.
+    fn worker(&self) -> impl FnMut((Chunk<T>, u64, Duration)) -> Result<Done, Failure> {
+        let mut segments: Vec<Segment<T>> = Vec::new();
+        let mut clips: Vec<SegmentClip<T>> = Vec::new();
+        move |(chunk, position, read)| {
+            let first = chunk.first;
+            let start = Instant::now();
+            self.source.load(chunk, &mut segments);
+            let loaded = Instant::now();
+            let mut counts = Counts::default();
+            clips.clear();
+            for (index, segment) in (first..).zip(&segments) {
+                let clip = self.engine.clip(self.frustum, segment, &mut counts.stages);
+                let clip = clip.map_err(|why| self.source.failure(index, why))?;
+                counts.add(&clip);
+                clips.push(clip);
+            }
+            let clipped = Instant::now();
+            let formatted = self.output.format(first, &clips);
+            Ok(Done {
+                formatted,
+                counts,
+                read: read + (loaded - start),
+                clip: clipped - loaded,
+                write: clipped.elapsed(),
+                position,
+            })
+        }
+    }
+}
+
+/// A bar on the error stream; invisible where that is no terminal.
+fn progress_bar(size: u64) -> ProgressBar {
+    let bar = ProgressBar::new(size);
+    if let Ok(style) = ProgressStyle::with_template("{bar:40} {percent:>3} %  {eta} left") {
+        bar.set_style(style);
+    }
+    bar
+}

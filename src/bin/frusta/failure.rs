@@ -1,0 +1,57 @@
+//! What went wrong, in one line.
+
+use std::fmt::{self, Display, Write};
+use std::path::Path;
+
+/// Why a command could not do its work: one line that names the file, the
+/// place in it and the reason.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Failure(String);
+
+impl Failure {
+    /// A failure that concerns no file.
+    pub(crate) fn new(reason: impl Display) -> Self {
+        Self(one_line(&reason.to_string()))
+    }
+
+    /// A failure of a whole file.
+    pub(crate) fn in_file(file: &Path, reason: impl Display) -> Self {
+        Self::new(format_args!("{}: {reason}", file.display()))
+    }
+
+    /// A failure at a place in a file.
+    pub(crate) fn at(file: &Path, place: impl Display, reason: impl Display) -> Self {
+        Self::new(format_args!("{}: {place}: {reason}", file.display()))
+    }
+}
+
+impl Display for Failure {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+
+/// A piece of a file for a message: quoted, and short whatever the file holds.
+pub(crate) fn quote(text: &str) -> String {
+    const LONGEST: usize = 40;
+    if text.chars().nth(LONGEST).is_some() {
+        let head: String = text.chars().take(LONGEST).collect();
+        format!("\"{head}...\"")
+    } else {
+        format!("\"{text}\"")
+    }
+}
+
+/// Control characters become escapes: a message stays one line, and a file
+/// cannot drive the terminal.
+fn one_line(text: &str) -> String {
+    let mut line = String::with_capacity(text.len());
+    for c in text.chars() {
+        if c.is_control() {
+            let _ = write!(line, "{}", c.escape_debug());
+        } else {
+            line.push(c);
+        }
+    }
+    line
+}

@@ -1,0 +1,76 @@
+//! The edges of faces, each once.
+
+use frusta::Vec3;
+
+/// Collects the edges of faces and gives each once.
+///
+/// Vertices at the same place count as one, so that an edge along which a
+/// file splits its vertices (for normals, say) is not drawn twice. Edges of no
+/// length are dropped: they are artefacts of degenerate triangles.
+#[derive(Debug, Default)]
+pub(crate) struct UniqueEdges(Vec<[u32; 2]>);
+
+impl UniqueEdges {
+    /// Adds the edge between two vertices.
+    pub(crate) fn add(&mut self, a: u32, b: u32) {
+        self.0.push([a, b]);
+    }
+
+    /// The edges, lower vertex first, in the order of their vertices.
+    pub(crate) fn finish(mut self, points: &[Vec3<f64>]) -> Vec<[u32; 2]> {
+        let same = first_at_same_place(points);
+        for edge in &mut self.0 {
+            *edge = edge.map(|v| same[v as usize]);
+            edge.sort_unstable();
+        }
+        self.0.retain(|[a, b]| a != b);
+        self.0.sort_unstable();
+        self.0.dedup();
+        self.0.shrink_to_fit();
+        self.0
+    }
+}
+
+/// For each point the first point that equals it.
+fn first_at_same_place(points: &[Vec3<f64>]) -> Vec<u32> {
+    // Adding zero makes the two zeros one.
+    let key = |i: u32| points[i as usize].to_array().map(|c| (c + 0.0).to_bits());
+    let mut order: Vec<u32> = (0..points.len() as u32).collect();
+    order.sort_unstable_by_key(|&i| (key(i), i));
+    let mut same: Vec<u32> = (0..points.len() as u32).collect();
+    for pair in order.windows(2) {
+        if key(pair[0]) == key(pair[1]) {
+            same[pair[1] as usize] = same[pair[0] as usize];
+        }
+    }
+    same
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_edge_between_split_vertices_counts_once() {
+        let points: Vec<Vec3<f64>> = [
+            [0.0, 0.0, 0.0],
+            [1.0, 0.0, 0.0],
+            [0.0, 1.0, 0.0],
+            [1.0, -0.0, 0.0],
+            [0.0, 1.0, 0.0],
+            [1.0, 1.0, 0.0],
+        ]
+        .map(Vec3::from)
+        .to_vec();
+        let mut edges = UniqueEdges::default();
+        for [a, b, c] in [[0, 1, 2], [4, 3, 5], [1, 3, 5]] {
+            edges.add(a, b);
+            edges.add(b, c);
+            edges.add(c, a);
+        }
+        assert_eq!(
+            edges.finish(&points),
+            [[0, 1], [0, 2], [1, 2], [1, 5], [2, 5]]
+        );
+    }
+}

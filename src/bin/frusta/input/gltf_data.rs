@@ -1,0 +1,276 @@
+//! The bytes behind glTF accessors, read with every length checked.
+//!
+//! The `gltf` crate's own readers panic where an accessor's count, stride or
+//! sparse part lies; these return an error that names the accessor. Nothing is
+//! allocated that the file does not back with bytes.
+
+use crate::failure::Failure;
+use base64::Engine;
+use base64::prelude::BASE64_STANDARD;
+use frusta::Vec3;
+use gltf::accessor::{DataType, Dimensions};
+use gltf::json;
+use gltf::json::validation::Checked;
+use percent_encoding::percent_decode_str;
+use std::borrow::Cow;
+use std::path::Path;
+
+/// A document and its buffers.
+pub(super) struct Data<'a> {
+    root: &'a json::Root,
+    buffers: Vec<Cow<'a, [u8]>>,
+}
+
+impl<'a> Data<'a> {
+    /// Loads all buffers: the binary chunk, data URIs, files beside the document.
+    pub(super) fn load(
+        file: &Path,
+        root: &'a json::Root,
+        blob: Option<&'a [u8]>,
+    ) -> Result<Self, Failure> {
+        let mut buffers = Vec::with_capacity(root.buffers.len());
+        for (i, buffer) in root.buffers.iter().enumerate() {
+            let bytes = match (&buffer.uri, blob) {
+                (Some(uri), _) => load_uri(file, uri).map(Cow::Owned),
+                (None, Some(blob)) if i == 0 => Ok(Cow::Borrowed(blob)),
+                (None, _) => Err("it has no uri, and there is no binary chunk for it".to_owned()),
+            };
+            let place = format_args!("buffer {i}");
+            let bytes = bytes.map_err(|why| Failure::at(file, place, why))?;
+            let (said, have) = (buffer.byte_length.0, bytes.len());
+            if (have as u64) < said {
+                let why = format!("byteLength is {said}; {have} bytes are there");
+                return Err(Failure::at(file, format_args!("buffer {i}"), why));
+            }
+            buffers.push(bytes);
+        }
+        Ok(Self { root, buffers })
+    }
+
+    /// The part of a buffer that a view shows.
+    fn view(&self, index: usize) -> Result<&[u8], String> {
+        let view = &self.root.buffer_views[index];
+        let start = view.byte_offset.map_or(0, |o| o.0) as usize;
+        let bytes = &self.buffers[view.buffer.value()];
+        let part = bytes
+            .get(start..)
+            .and_then(|rest| rest.get(..view.byte_length.0 as usize));
+        part.ok_or_else(|| {
+            let buffer = view.buffer.value();
+            format!("buffer view {index} reaches beyond the end of buffer {buffer}")
+        })
+    }
+
+    /// `count` elements of `size` bytes in a view from `offset` on.
+    fn elements(
+        &self,
+        view: usize,
+        offset: u64,
+        size: usize,
+        count: u64,
+    ) -> Result<impl Iterator<Item = &[u8]>, String> {
+        let bytes = self.view(view)?;
+        let stride = match self.root.buffer_views[view].byte_stride {
+            Some(stride) if stride.0 >= size => stride.0,
+            Some(stride) if stride.0 > 0 => {
+                return Err(format!(
+                    "byteStride is {}; an element takes {size}",
+                    stride.0
+                ));
+            }
+            _ => size,
+        };
+        let needed = count.checked_sub(1).map_or(Some(0), |n| {
+            n.checked_mul(stride as u64)?.checked_add(size as u64)
+        });
+        let have = (bytes.len() as u64).checked_sub(offset);
+        match (needed, have) {
+            (Some(needed), Some(have)) if needed <= have => {}
+            _ => {
+                let length = bytes.len();
+                return Err(format!(
+                    "{count} elements from byte {offset} do not fit buffer view {view} of {length} bytes"
+                ));
+            }
+        }
+        let count = count as usize;
+        let rest = bytes[offset as usize..].chunks(stride);
+        Ok(rest.take(count).map(move |chunk| &chunk[..size]))
+    }
+}
+
+fn load_uri(file: &Path, uri: &str) -> Result<Vec<u8>, String> {
+    if let Some(rest) = uri.strip_prefix("data:") {
+        let (_, text) = rest
+            .split_once(";base64,")
+            .ok_or("its data URI is not base64")?;
+        return BASE64_STANDARD
+            .decode(text)
+            .map_err(|e| format!("its data URI: {e}"));
+    }
+    if uri.contains("://") {
+        return Err("its uri is no file; only files beside the document are read".to_owned());
+    }
+    let name = percent_decode_str(uri)
+        .decode_utf8()
+        .map_err(|_| "its uri is not UTF-8".to_owned())?;
+    let path = file.parent().unwrap_or(Path::new("")).join(name.as_ref());
+    std::fs::read(&path).map_err(|e| format!("{}: {e}", path.display()))
+}
+
+/// Appends an accessor's points.
+pub(super) fn positions(
+    data: &Data<'_>,
+    index: usize,
+    out: &mut Vec<Vec3<f64>>,
+) -> Result<(), String> {
+    let base = out.len();
+    let mut read = || {
+        let accessor = &data.root.accessors[index];
+        let (kind, dimensions) = types(accessor);
+        if dimensions != Dimensions::Vec3 {
+            return Err("POSITION must be VEC3".to_owned());
+        }
+        let size = 3 * kind.size();
+        let point = |bytes: &[u8]| {
+            let mut components = bytes.chunks_exact(kind.size());
+            let mut next = || {
+                components
+                    .next()
+                    .map_or(0.0, |c| component(c, kind, accessor.normalized))
+            };
+            Vec3::new(next(), next(), next())
+        };
+        if out.len() as u64 + accessor.count.0 > u64::from(u32::MAX) {
+            return Err(format!("{} points are too many", accessor.count.0));
+        }
+        match accessor.buffer_view {
+            Some(view) => {
+                let offset = accessor.byte_offset.map_or(0, |o| o.0);
+                out.extend(
+                    data.elements(view.value(), offset, size, accessor.count.0)?
+                        .map(point),
+                );
+            }
+            None => out.extend(zeros(accessor)?),
+        }
+        if let Some(sparse) = &accessor.sparse {
+            let places = sparse_indices(data, sparse, accessor.count.0)?;
+            let values = data.elements(
+                sparse.values.buffer_view.value(),
+                sparse.values.byte_offset.0,
+                size,
+                sparse.count.0,
+            )?;
+            for (place, value) in places.into_iter().zip(values) {
+                out[base + place as usize] = point(value);
+            }
+        }
+        for (i, point) in out[base..].iter().enumerate() {
+            if !point.is_finite() {
+                return Err(format!("point {i} is {point}; it must be finite"));
+            }
+        }
+        Ok(())
+    };
+    read().map_err(|why| format!("accessor {index}: {why}"))
+}
+
+/// An accessor's vertex indices, all below `points`.
+pub(super) fn indices(data: &Data<'_>, index: usize, points: usize) -> Result<Vec<u32>, String> {
+    let read = || {
+        let accessor = &data.root.accessors[index];
+        let (kind, dimensions) = types(accessor);
+        if dimensions != Dimensions::Scalar
+            || !matches!(kind, DataType::U8 | DataType::U16 | DataType::U32)
+        {
+            return Err("indices must be unsigned SCALARs".to_owned());
+        }
+        let Some(view) = accessor.buffer_view.filter(|_| accessor.sparse.is_none()) else {
+            return Err("sparse indices are not supported".to_owned());
+        };
+        let offset = accessor.byte_offset.map_or(0, |o| o.0);
+        let elements = data.elements(view.value(), offset, kind.size(), accessor.count.0)?;
+        let indices: Vec<u32> = elements.map(unsigned).collect();
+        match indices.iter().position(|&i| i as usize >= points) {
+            Some(at) => Err(format!(
+                "index {at} asks for vertex {} of {points}",
+                indices[at]
+            )),
+            None => Ok(indices),
+        }
+    };
+    read().map_err(|why| format!("accessor {index}: {why}"))
+}
+
+fn sparse_indices(
+    data: &Data<'_>,
+    sparse: &json::accessor::sparse::Sparse,
+    count: u64,
+) -> Result<Vec<u32>, String> {
+    let kind = match sparse.indices.component_type {
+        Checked::Valid(kind) => kind.0,
+        Checked::Invalid => return Err("sparse: indices of an unknown type".to_owned()),
+    };
+    let places: Vec<u32> = data
+        .elements(
+            sparse.indices.buffer_view.value(),
+            sparse.indices.byte_offset.0,
+            kind.size(),
+            sparse.count.0,
+        )?
+        .map(unsigned)
+        .collect();
+    match places.iter().find(|&&p| u64::from(p) >= count) {
+        Some(place) => Err(format!("sparse: element {place} of {count}")),
+        None => Ok(places),
+    }
+}
+
+/// The points of an accessor without a view. Its count has no bytes behind it,
+/// so it is bounded here.
+fn zeros(accessor: &json::Accessor) -> Result<impl Iterator<Item = Vec3<f64>>, String> {
+    const MOST: u64 = 1 << 24;
+    let count = accessor.count.0;
+    if count > MOST {
+        return Err(format!(
+            "{count} points without a buffer view; at most {MOST} are read"
+        ));
+    }
+    Ok((0..count).map(|_| Vec3::default()))
+}
+
+fn types(accessor: &json::Accessor) -> (DataType, Dimensions) {
+    match (accessor.component_type, accessor.type_) {
+        (Checked::Valid(kind), Checked::Valid(dimensions)) => (kind.0, dimensions),
+        // The validation has refused it already.
+        _ => (DataType::F32, Dimensions::Mat4),
+    }
+}
+
+/// One component, by glTF's rules for normalized integers.
+fn component(bytes: &[u8], kind: DataType, normalized: bool) -> f64 {
+    let scaled = |value: f64, most: f64| {
+        if normalized {
+            (value / most).max(-1.0)
+        } else {
+            value
+        }
+    };
+    match (kind, bytes) {
+        (DataType::I8, &[a]) => scaled(f64::from(a.cast_signed()), 127.0),
+        (DataType::U8, &[a]) => scaled(f64::from(a), 255.0),
+        (DataType::I16, &[a, b]) => scaled(f64::from(i16::from_le_bytes([a, b])), 32767.0),
+        (DataType::U16, &[a, b]) => scaled(f64::from(u16::from_le_bytes([a, b])), 65535.0),
+        (DataType::U32, &[a, b, c, d]) => f64::from(u32::from_le_bytes([a, b, c, d])),
+        (DataType::F32, &[a, b, c, d]) => f64::from(f32::from_le_bytes([a, b, c, d])),
+        _ => f64::NAN,
+    }
+}
+
+fn unsigned(bytes: &[u8]) -> u32 {
+    bytes
+        .iter()
+        .rev()
+        .fold(0, |value, &byte| (value << 8) | u32::from(byte))
+}

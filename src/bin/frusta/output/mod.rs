@@ -1,0 +1,165 @@
+//! Writing what was clipped, by the output file's extension.
+//!
+//! Workers format their chunk of results ([`Format::format`]), the writer puts
+//! the chunks together in order ([`Writer::accept`]).
+
+mod csv;
+mod file;
+mod obj;
+mod svg;
+mod thin;
+
+use crate::failure::Failure;
+use crate::number::Scalar;
+use file::WholeFile;
+use frusta::{Frustum, SegmentClip};
+use std::path::Path;
+
+/// What a worker makes of its results.
+#[derive(Debug, Default)]
+pub(crate) struct Formatted {
+    /// Text for the file.
+    text: Vec<u8>,
+    /// OBJ: which of the parts are single points, as their numbers in the chunk.
+    points: Vec<u32>,
+    /// OBJ: how many parts there are.
+    parts: u32,
+    /// SVG: what to draw.
+    strokes: Vec<thin::Stroke>,
+}
+
+/// Kinds of output files, told by the name's extension.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Kind {
+    /// No file.
+    None,
+    /// `.csv`
+    Csv,
+    /// `.obj`
+    Obj,
+    /// `.svg`
+    Svg,
+}
+
+impl Kind {
+    /// The kind that a file's name stands for.
+    pub(crate) fn of(file: Option<&Path>) -> Result<Self, Failure> {
+        let Some(file) = file else {
+            return Ok(Self::None);
+        };
+        let extension = file.extension().and_then(|e| e.to_str()).unwrap_or("");
+        match extension.to_ascii_lowercase().as_str() {
+            "csv" => Ok(Self::Csv),
+            "obj" => Ok(Self::Obj),
+            "svg" => Ok(Self::Svg),
+            _ => Err(Failure::in_file(
+                file,
+                "unknown kind of output; expected .csv, .obj or .svg",
+            )),
+        }
+    }
+}
+
+/// How results are formatted.
+#[derive(Clone, Debug)]
+pub(crate) enum Format {
+    /// Not at all: statistics only.
+    None,
+    /// A row a segment.
+    Csv,
+    /// A line element a part.
+    Obj,
+    /// What the camera sees.
+    Svg(svg::Projector),
+}
+
+impl Format {
+    /// Formatting for a kind of file and a frustum.
+    pub(crate) fn new(kind: Kind, frustum: &Frustum) -> Self {
+        match kind {
+            Kind::None => Self::None,
+            Kind::Csv => Self::Csv,
+            Kind::Obj => Self::Obj,
+            Kind::Svg => Self::Svg(svg::Projector::new(frustum)),
+        }
+    }
+
+    /// Formats the results of the segments from number `first` on.
+    pub(crate) fn format<T: Scalar>(&self, first: u64, clips: &[SegmentClip<T>]) -> Formatted {
+        let mut out = Formatted::default();
+        match self {
+            Self::None => {}
+            Self::Csv => csv::format(first, clips, &mut out.text),
+            Self::Obj => obj::format(clips, &mut out),
+            Self::Svg(projector) => svg::format(projector, clips, &mut out.strokes),
+        }
+        out
+    }
+}
+
+/// Puts formatted chunks together into a file.
+pub(crate) enum Writer {
+    /// No file.
+    None,
+    /// Rows, written as they come.
+    Csv(WholeFile),
+    /// Vertices, written as they come; then the elements.
+    Obj(WholeFile, obj::Elements),
+    /// Strokes, kept until the end.
+    Svg(WholeFile, svg::Picture),
+}
+
+impl Writer {
+    /// Begins a file; it appears under its name only when it is finished.
+    pub(crate) fn create(format: &Format, file: Option<&Path>) -> Result<Self, Failure> {
+        let Some(file) = file else {
+            return Ok(Self::None);
+        };
+        let mut out = WholeFile::create(file)?;
+        Ok(match format {
+            Format::None => Self::None,
+            Format::Csv => {
+                out.write(csv::HEADER.as_bytes())?;
+                Self::Csv(out)
+            }
+            Format::Obj => {
+                out.write(obj::HEADER.as_bytes())?;
+                Self::Obj(out, obj::Elements::default())
+            }
+            Format::Svg(projector) => Self::Svg(out, svg::Picture::new(projector)),
+        })
+    }
+
+    /// Takes the next chunk.
+    pub(crate) fn accept(&mut self, chunk: &Formatted) -> Result<(), Failure> {
+        match self {
+            Self::None => Ok(()),
+            Self::Csv(out) => out.write(&chunk.text),
+            Self::Obj(out, elements) => {
+                elements.add(chunk.parts, &chunk.points);
+                out.write(&chunk.text)
+            }
+            Self::Svg(_, picture) => {
+                picture.add(&chunk.strokes);
+                Ok(())
+            }
+        }
+    }
+
+    /// Completes the file and gives it its name. The title and the number of
+    /// segments by class go into pictures.
+    pub(crate) fn finish(self, title: &str, classes: &[u64; 5]) -> Result<(), Failure> {
+        match self {
+            Self::None => Ok(()),
+            Self::Csv(out) => out.finish(),
+            Self::Obj(mut out, elements) => {
+                elements.write(|text| out.write(text))?;
+                out.finish()
+            }
+            Self::Svg(mut out, picture) => {
+                out.write(picture.draw(title, classes).as_bytes())?;
+                out.finish()
+            }
+        }
+    }
+}

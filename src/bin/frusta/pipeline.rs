@@ -1,0 +1,140 @@
+//! Reader, workers, writer: in order, in bounded memory, whatever the number
+//! of threads.
+//!
+//! Job `k` goes to worker `k mod n` and its result is taken from there in turn,
+//! so that results come in the order of the jobs without being sorted, and
+//! the first failure in that order is the one reported. The channels hold a few
+//! jobs each, which bounds the memory.
+
+use crate::failure::Failure;
+use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
+use std::thread;
+
+/// How many jobs may wait for each worker, and results for the sink.
+const DEPTH: usize = 2;
+
+/// Runs all jobs that `next` gives (until `None`) through workers made by
+/// `worker`, one a thread, and their results through `sink` in order.
+pub(crate) fn run<J: Send, R: Send, W: FnMut(J) -> Result<R, Failure>>(
+    threads: usize,
+    next: impl FnMut() -> Result<Option<J>, Failure> + Send,
+    worker: impl Fn() -> W + Sync,
+    mut sink: impl FnMut(R) -> Result<(), Failure>,
+) -> Result<(), Failure> {
+    thread::scope(|scope| {
+        let mut inputs = Vec::new();
+        let mut outputs = Vec::new();
+        for _ in 0..threads.max(1) {
+            let (input, jobs) = sync_channel::<Result<J, Failure>>(DEPTH);
+            let (results, output) = sync_channel(DEPTH);
+            inputs.push(input);
+            outputs.push(output);
+            let worker = &worker;
+            scope.spawn(move || work(worker(), &jobs, &results));
+        }
+        scope.spawn(move || distribute(next, &inputs));
+        for output in outputs.iter().cycle() {
+            // A worker that hangs up has no job left, nor has any after it.
+            let Ok(result) = output.recv() else {
+                return Ok(());
+            };
+            sink(result?)?;
+        }
+        Ok(())
+    })
+}
+
+fn work<J, R>(
+    mut worker: impl FnMut(J) -> Result<R, Failure>,
+    jobs: &Receiver<Result<J, Failure>>,
+    results: &SyncSender<Result<R, Failure>>,
+) {
+    for job in jobs {
+        let result = job.and_then(&mut worker);
+        let failed = result.is_err();
+        if results.send(result).is_err() || failed {
+            return;
+        }
+    }
+}
+
+/// Deals out the jobs; a failure to read travels with them, in its place.
+fn distribute<J>(
+    mut next: impl FnMut() -> Result<Option<J>, Failure>,
+    inputs: &[SyncSender<Result<J, Failure>>],
+) {
+    for input in inputs.iter().cycle() {
+        let job = match next() {
+            Ok(Some(job)) => Ok(job),
+            Ok(None) => return,
+            Err(failure) => Err(failure),
+        };
+        let failed = job.is_err();
+        if input.send(job).is_err() || failed {
+            return;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn squares(threads: usize, fail_at: Option<u64>) -> (Vec<u64>, Result<(), Failure>) {
+        let mut jobs = 0..1000_u64;
+        let mut seen = Vec::new();
+        let result = run(
+            threads,
+            || Ok(jobs.next()),
+            || {
+                move |job: u64| match fail_at {
+                    Some(at) if job >= at => Err(Failure::new(job)),
+                    _ => Ok(job * job),
+                }
+            },
+            |square| {
+                seen.push(square);
+                Ok(())
+            },
+        );
+        (seen, result)
+    }
+
+    #[test]
+    fn results_come_in_order_from_any_number_of_threads() {
+        let expected: Vec<u64> = (0..1000).map(|i| i * i).collect();
+        for threads in [0, 1, 2, 3, 7] {
+            assert_eq!(squares(threads, None), (expected.clone(), Ok(())));
+        }
+    }
+
+    #[test]
+    fn the_first_failure_in_order_ends_the_run() {
+        for threads in [1, 2, 5] {
+            let (seen, result) = squares(threads, Some(17));
+            assert_eq!(seen.len(), 17);
+            assert_eq!(result, Err(Failure::new(17)));
+        }
+    }
+
+    #[test]
+    fn a_failing_reader_or_sink_ends_the_run() {
+        let mut left = 5;
+        let read = run(
+            2,
+            || {
+                left -= 1;
+                if left == 0 {
+                    Err(Failure::new("torn"))
+                } else {
+                    Ok(Some(left))
+                }
+            },
+            || Ok,
+            |_| Ok(()),
+        );
+        assert_eq!(read, Err(Failure::new("torn")));
+        let full = run(2, || Ok(Some(1)), || Ok, |_| Err(Failure::new("full")));
+        assert_eq!(full, Err(Failure::new("full")));
+    }
+}

@@ -1,0 +1,272 @@
+//! What a run did, for people and for programs.
+
+use frusta::{Class, EndRect, Frustum, Rect, SegmentClip, Shape, StageCounts};
+use serde_json::{Value, json};
+use std::fmt::Write;
+use std::time::Duration;
+
+/// Sums over segments.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Counts {
+    /// By class, in the order of [`Class::ALL`].
+    pub(crate) classes: [u64; 5],
+    /// Ends that were clipped.
+    pub(crate) clipped_ends: u64,
+    /// Clipped ends that are not proven inside (all, unless asked for inward).
+    pub(crate) not_inward: u64,
+    /// How far the exact decisions had to go.
+    pub(crate) stages: StageCounts,
+}
+
+impl Counts {
+    /// Counts a result.
+    pub(crate) fn add<T>(&mut self, clip: &SegmentClip<T>) {
+        self.classes[clip.class as usize] += 1;
+        if let Some(part) = &clip.part {
+            for end in [&part.entry, &part.exit] {
+                self.clipped_ends += u64::from(end.clipped);
+                self.not_inward += u64::from(!end.inward);
+            }
+        }
+    }
+
+    /// Adds another sum.
+    pub(crate) fn merge(&mut self, other: &Self) {
+        for (mine, theirs) in self.classes.iter_mut().zip(other.classes) {
+            *mine += theirs;
+        }
+        self.clipped_ends += other.clipped_ends;
+        self.not_inward += other.not_inward;
+        self.stages.filter_failures += other.stages.filter_failures;
+        self.stages.expansions += other.stages.expansions;
+        self.stages.integers += other.stages.integers;
+    }
+
+    /// How many segments there were.
+    pub(crate) fn segments(&self) -> u64 {
+        self.classes.iter().sum()
+    }
+}
+
+/// Where the time went. `read`, `clip` and `write` are sums over the threads;
+/// they overlap.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Times {
+    pub(crate) read: Duration,
+    pub(crate) clip: Duration,
+    pub(crate) write: Duration,
+    pub(crate) total: Duration,
+}
+
+/// Everything about a run.
+pub(crate) struct Report<'a> {
+    pub(crate) file: String,
+    pub(crate) format: &'static str,
+    pub(crate) edges: Option<&'static str>,
+    pub(crate) algorithm: &'static str,
+    pub(crate) arithmetic: &'static str,
+    /// With exact arithmetic.
+    pub(crate) accuracy: Option<&'static str>,
+    pub(crate) precision: &'static str,
+    pub(crate) threads: usize,
+    pub(crate) flags: &'a str,
+    pub(crate) chosen: bool,
+    pub(crate) frustum: &'a Frustum,
+    pub(crate) output: Option<String>,
+    pub(crate) counts: Counts,
+    /// Whether `counts.stages` means anything.
+    pub(crate) staged: bool,
+    pub(crate) times: Times,
+}
+
+impl Report<'_> {
+    /// The share of segments that the floating-point filter did not settle.
+    fn exact_share(&self) -> Option<f64> {
+        let segments = self.counts.segments().max(1) as f64;
+        let failures = self.counts.stages.filter_failures as f64;
+        self.staged.then_some(failures / segments)
+    }
+
+    /// As JSON.
+    pub(crate) fn to_json(&self) -> Value {
+        let counts = &self.counts;
+        let classes: serde_json::Map<String, Value> = Class::ALL
+            .iter()
+            .zip(counts.classes)
+            .map(|(class, count)| (class.name().to_owned(), json!(count)))
+            .collect();
+        let stages = self.staged.then(|| {
+            json!({
+                "filter_failures": counts.stages.filter_failures,
+                "expansions": counts.stages.expansions,
+                "integers": counts.stages.integers,
+            })
+        });
+        json!({
+            "file": self.file,
+            "format": self.format,
+            "edges": self.edges,
+            "segments": counts.segments(),
+            "classes": classes,
+            "clipped_ends": counts.clipped_ends,
+            "not_inward": counts.not_inward,
+            "stages": stages,
+            "exact_share": self.exact_share(),
+            "algorithm": self.algorithm,
+            "arithmetic": self.arithmetic,
+            "accuracy": self.accuracy,
+            "precision": self.precision,
+            "threads": self.threads,
+            "view": { "flags": self.flags, "chosen": self.chosen },
+            "frustum": frustum_json(self.frustum),
+            "output": self.output,
+            "time": {
+                "read_s": self.times.read.as_secs_f64(),
+                "clip_s": self.times.clip.as_secs_f64(),
+                "write_s": self.times.write.as_secs_f64(),
+                "total_s": self.times.total.as_secs_f64(),
+            },
+            "peak_memory_bytes": peak_memory(),
+        })
+    }
+
+    /// As a table.
+    pub(crate) fn to_table(&self) -> String {
+        let mut rows: Vec<(&str, String)> = Vec::new();
+        let counts = &self.counts;
+        let edges = self.edges.map_or(String::new(), |e| format!(", {e}"));
+        rows.push(("file", format!("{} ({}{edges})", self.file, self.format)));
+        let chosen = if self.chosen {
+            " (chosen from the scene's extent)"
+        } else {
+            ""
+        };
+        rows.push(("view", format!("{}{chosen}", self.flags)));
+        rows.push((
+            "algorithm",
+            format!(
+                "{}, {}{}, {}",
+                self.algorithm,
+                self.arithmetic,
+                self.accuracy.map_or(String::new(), |a| format!(" ({a})")),
+                self.precision
+            ),
+        ));
+        let segments = counts.segments();
+        rows.push(("segments", grouped(segments)));
+        for (class, count) in Class::ALL.iter().zip(counts.classes) {
+            let share = 100.0 * count as f64 / segments.max(1) as f64;
+            rows.push((
+                class.name(),
+                format!("{:>13}  {share:6.2} %", grouped(count)),
+            ));
+        }
+        rows.push(("clipped ends", grouped(counts.clipped_ends)));
+        if let Some(share) = self.exact_share() {
+            let stages = &counts.stages;
+            rows.push((
+                "exact stage",
+                format!(
+                    "{:.4} % of the segments; {} signs by expansions, {} by integers",
+                    100.0 * share,
+                    grouped(stages.expansions),
+                    grouped(stages.integers)
+                ),
+            ));
+        }
+        let Times {
+            read,
+            clip,
+            write,
+            total,
+        } = self.times;
+        rows.push((
+            "time",
+            format!(
+                "{:.3} s (read {:.3}, clip {:.3}, write {:.3}, summed over {} thread{})",
+                total.as_secs_f64(),
+                read.as_secs_f64(),
+                clip.as_secs_f64(),
+                write.as_secs_f64(),
+                self.threads,
+                if self.threads == 1 { "" } else { "s" }
+            ),
+        ));
+        if let Some(bytes) = peak_memory() {
+            rows.push(("peak memory", format!("{:.1} MB", bytes as f64 / 1e6)));
+        }
+        if let Some(output) = &self.output {
+            rows.push(("written", output.clone()));
+        }
+        let mut table = String::new();
+        for (name, value) in rows {
+            // Writing into memory cannot fail.
+            let _ = writeln!(table, "{name:<13} {value}");
+        }
+        table
+    }
+}
+
+/// The frustum in the form that `--frustum` reads.
+fn frustum_json(frustum: &Frustum) -> Value {
+    let rect =
+        |r: Rect| json!({"left": r.left, "right": r.right, "bottom": r.bottom, "top": r.top});
+    let end = |e: EndRect| {
+        let r = e.rect;
+        json!({"z": e.z, "left": r.left, "right": r.right, "bottom": r.bottom, "top": r.top})
+    };
+    let pose = frustum.pose();
+    let mut value = json!({
+        "origin": pose.origin.to_array(),
+        "axes": pose.axes.map(|a| a.to_array()),
+        "near": end(frustum.shape().near()),
+    });
+    match *frustum.shape() {
+        Shape::Finite { far, .. } => value["far"] = end(far),
+        Shape::Infinite {
+            slopes, direction, ..
+        } => {
+            value["slopes"] = rect(slopes);
+            value["direction"] = json!(direction.sign());
+        }
+    }
+    value
+}
+
+/// Digits in groups of three.
+fn grouped(value: u64) -> String {
+    let digits = value.to_string();
+    let mut out = String::new();
+    for (i, digit) in digits.chars().enumerate() {
+        if i > 0 && (digits.len() - i).is_multiple_of(3) {
+            out.push(',');
+        }
+        out.push(digit);
+    }
+    out
+}
+
+/// The most memory the process has held, where the system tells.
+fn peak_memory() -> Option<u64> {
+    let status = std::fs::read_to_string("/proc/self/status").ok()?;
+    let line = status.lines().find_map(|l| l.strip_prefix("VmHWM:"))?;
+    let kilobytes: u64 = line.trim().strip_suffix("kB")?.trim().parse().ok()?;
+    Some(1024 * kilobytes)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn digits_come_in_groups_of_three() {
+        for (value, text) in [
+            (0, "0"),
+            (999, "999"),
+            (1000, "1,000"),
+            (3_009_570, "3,009,570"),
+        ] {
+            assert_eq!(grouped(value), text);
+        }
+    }
+}

@@ -1,0 +1,327 @@
+//! A frustum's vertices and planes in the world, rounded.
+//!
+//! For drawing, bounding and plain algorithms. Each coordinate of a vertex is
+//! the exact one, rounded once: Cramer's rule in exact arithmetic and one
+//! division. Planes are exact up to the final scaling to unit length. Nothing
+//! here serves exact decisions, which are made on the frustum itself.
+
+use super::exact_vec::{Dyadic, Dyadic3, Rounded, cross, dot, exact, normalised_by_power};
+use super::{EndRect, Face, Frustum, Shape};
+use crate::math::{Rect, Vec3};
+
+/// The vertices of a frustum, in the world.
+///
+/// Four at an end, going round: left bottom, right bottom, right top, left top.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Corners {
+    /// The near end's vertices; those of an edge or an apex are equal.
+    pub near: [Vec3<f64>; 4],
+    /// What is at the other end.
+    pub far: FarCorners,
+}
+
+/// The far half of [`Corners`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum FarCorners {
+    /// The far end's vertices.
+    Points([Vec3<f64>; 4]),
+    /// For an infinite frustum: how each edge goes on from its near vertex, for
+    /// each unit of depth.
+    Directions([Vec3<f64>; 4]),
+}
+
+/// A plane as a function: `normal . p + offset`, the signed distance.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Plane {
+    /// A unit vector.
+    pub normal: Vec3<f64>,
+    /// The value at the world's origin.
+    pub offset: f64,
+}
+
+impl Plane {
+    /// The signed distance of a point, in plain arithmetic.
+    #[inline]
+    pub fn signed_distance(&self, p: Vec3<f64>) -> f64 {
+        self.normal.dot(p) + self.offset
+    }
+}
+
+/// The exact inverse of a pose, over one denominator.
+struct Inverse {
+    /// Columns of the adjugate.
+    columns: [Dyadic3; 3],
+    origin_times_determinant: Dyadic3,
+    determinant: Dyadic,
+}
+
+impl Inverse {
+    fn new(frustum: &Frustum) -> Self {
+        let pose = frustum.pose();
+        let [a, b, c] = pose.axes.map(exact);
+        let columns = [cross(&b, &c), cross(&c, &a), cross(&a, &b)];
+        let determinant = dot(&a, &columns[0]);
+        let origin = exact(pose.origin);
+        Self {
+            origin_times_determinant: origin.map(|x| &x * &determinant),
+            columns,
+            determinant,
+        }
+    }
+
+    /// The vector with these frame coordinates, over the determinant.
+    fn numerators(&self, frame: [f64; 3]) -> Dyadic3 {
+        let q = frame.map(Dyadic::from);
+        std::array::from_fn(|i| {
+            let row = [0, 1, 2].map(|k| &self.columns[k][i] * &q[k]);
+            &(&row[0] + &row[1]) + &row[2]
+        })
+    }
+
+    fn direction(&self, frame: [f64; 3]) -> Vec3<f64> {
+        let v = self.numerators(frame);
+        Vec3::from([0, 1, 2].map(|i| v[i].ratio(&self.determinant)))
+    }
+
+    fn point(&self, frame: [f64; 3]) -> Vec3<f64> {
+        let v = self.numerators(frame);
+        let o = &self.origin_times_determinant;
+        Vec3::from([0, 1, 2].map(|i| (&v[i] + &o[i]).ratio(&self.determinant)))
+    }
+}
+
+/// The corners of a rectangle, going round.
+fn around(r: Rect) -> [[f64; 2]; 4] {
+    [
+        [r.left, r.bottom],
+        [r.right, r.bottom],
+        [r.right, r.top],
+        [r.left, r.top],
+    ]
+}
+
+impl Frustum {
+    /// The vertices, in the world.
+    ///
+    /// Error: each coordinate is correctly rounded (half an ulp); one beyond
+    /// the range of doubles is infinite.
+    ///
+    /// ```
+    /// use frusta::{EndRect, FarCorners, Frustum, Pose, Shape, Vec3};
+    /// let shape = Shape::Finite {
+    ///     near: EndRect::new(1.0, -1.0, 1.0, -1.0, 1.0),
+    ///     far: EndRect::new(3.0, -3.0, 3.0, -3.0, 3.0),
+    /// };
+    /// let corners = Frustum::new(Pose::IDENTITY, shape)?.corners();
+    /// assert_eq!(corners.near[1], Vec3::new(1.0, -1.0, 1.0));
+    /// let FarCorners::Points(far) = corners.far else { unreachable!() };
+    /// assert_eq!(far[2], Vec3::new(3.0, 3.0, 3.0));
+    /// # Ok::<(), frusta::FrustumError>(())
+    /// ```
+    pub fn corners(&self) -> Corners {
+        let inverse = Inverse::new(self);
+        let end = |e: EndRect| around(e.rect).map(|[x, y]| inverse.point([x, y, e.z]));
+        let (near, far) = match *self.shape() {
+            Shape::Finite { near, far } => (near, FarCorners::Points(end(far))),
+            Shape::Infinite {
+                near,
+                slopes,
+                direction,
+            } => {
+                let along = |[x, y]: [f64; 2]| inverse.direction([x, y, direction.sign()]);
+                (near, FarCorners::Directions(around(slopes).map(along)))
+            }
+        };
+        Corners {
+            near: end(near),
+            far,
+        }
+    }
+
+    /// The plane of a face, its normal pointing inwards; `None` for the far
+    /// face of an infinite frustum.
+    ///
+    /// Error: each number within 4 ulp of the exact unit plane's. So a signed
+    /// distance is off by at most about `4 u (|p| + |offset|)`, and a vertex
+    /// may lie off its own planes by that much; an offset beyond the range of
+    /// doubles is infinite.
+    ///
+    /// ```
+    /// use frusta::{EndRect, Face, Frustum, Pose, Shape, Vec3};
+    /// let shape = Shape::Finite {
+    ///     near: EndRect::new(1.0, -1.0, 1.0, -1.0, 1.0),
+    ///     far: EndRect::new(3.0, -1.0, 1.0, -1.0, 1.0),
+    /// };
+    /// let frustum = Frustum::new(Pose::IDENTITY, shape)?;
+    /// let left = frustum.plane(Face::Left).unwrap();
+    /// assert_eq!((left.normal, left.offset), (Vec3::new(1.0, 0.0, 0.0), 1.0));
+    /// # Ok::<(), frusta::FrustumError>(())
+    /// ```
+    pub fn plane(&self, face: Face) -> Option<Plane> {
+        let axes = self.pose().axes;
+        let [across, along, constant] = self.frame_plane(face)?;
+        let (u, v) = match face {
+            Face::Bottom | Face::Top => (exact(axes[1]), exact(axes[2])),
+            _ => (exact(axes[0]), exact(axes[2])),
+        };
+        let normal: Dyadic3 = std::array::from_fn(|i| &(&u[i] * &across) + &(&v[i] * &along));
+        let offset = &constant - &dot(&normal, &exact(self.pose().origin));
+        // Not `None`: independent axes, not both coefficients zero.
+        let (n, shift) = normalised_by_power(&normal)?;
+        let length = n.dot(n).sqrt();
+        Some(Plane {
+            normal: Vec3::new(n.x / length, n.y / length, n.z / length),
+            offset: offset.scaled(shift) / length,
+        })
+    }
+
+    /// The planes of all faces there are, in the order of [`Face::ALL`].
+    pub fn planes(&self) -> impl Iterator<Item = (Face, Plane)> + '_ {
+        Face::ALL
+            .into_iter()
+            .filter_map(|face| self.plane(face).map(|plane| (face, plane)))
+    }
+
+    /// A face's plane in the frame: coefficients of `x` (or `y`) and of `z`,
+    /// and the constant.
+    fn frame_plane(&self, face: Face) -> Option<[Dyadic; 3]> {
+        let zero = Dyadic::from(0.0);
+        let near = self.shape().near();
+        let sign = Dyadic::from(self.shape().direction().sign());
+        let near_z = Dyadic::from(near.z);
+        let bound = |r: Rect| match face {
+            Face::Left => r.left,
+            Face::Right => r.right,
+            Face::Bottom => r.bottom,
+            _ => r.top,
+        };
+        // The bound grows by `rise` over the depth `run`.
+        let at_near = Dyadic::from(bound(near.rect));
+        let (rise, run) = match *self.shape() {
+            Shape::Finite { far, .. } => (
+                &Dyadic::from(bound(far.rect)) - &at_near,
+                &(&Dyadic::from(far.z) - &near_z) * &sign,
+            ),
+            Shape::Infinite { slopes, .. } => (Dyadic::from(bound(slopes)), Dyadic::from(1.0)),
+        };
+        let rise = &rise * &sign;
+        Some(match face {
+            Face::Near => {
+                let constant = -&(&near_z * &sign);
+                [zero, sign, constant]
+            }
+            Face::Far => {
+                let far_z = Dyadic::from(self.shape().far()?.z);
+                let constant = &far_z * &sign;
+                [zero, -&sign, constant]
+            }
+            // (x - at_near) run - rise (z - near.z) >= 0, or the opposite.
+            Face::Left | Face::Bottom => {
+                let constant = &(&rise * &near_z) - &(&at_near * &run);
+                [run, -&rise, constant]
+            }
+            Face::Right | Face::Top => {
+                let constant = &(&at_near * &run) - &(&rise * &near_z);
+                [-&run, rise, constant]
+            }
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Direction;
+    use crate::math::Pose;
+
+    fn shape(infinite: bool) -> Shape {
+        let near = EndRect::new(-2.0, 0.0, 1.0, -1.0, 0.5);
+        if infinite {
+            Shape::Infinite {
+                near,
+                slopes: Rect::new(-0.5, 1.0, 0.25, 2.0),
+                direction: Direction::MinusZ,
+            }
+        } else {
+            Shape::Finite {
+                near,
+                far: EndRect::new(-6.0, -3.0, 1.0, -2.0, 4.0),
+            }
+        }
+    }
+
+    /// Vertices lie on their planes and inside the others, up to rounding.
+    fn check(frustum: &Frustum, scale: f64) {
+        let corners = frustum.corners();
+        let far = match corners.far {
+            FarCorners::Points(far) => far,
+            FarCorners::Directions(d) => [0, 1, 2, 3].map(|i| corners.near[i] + d[i] * 4.0),
+        };
+        let sides = [
+            [Face::Left, Face::Bottom],
+            [Face::Right, Face::Bottom],
+            [Face::Right, Face::Top],
+            [Face::Left, Face::Top],
+        ];
+        for (points, end) in [(corners.near, Face::Near), (far, Face::Far)] {
+            for (p, sides) in points.into_iter().zip(sides) {
+                for (face, plane) in frustum.planes() {
+                    let distance = plane.signed_distance(p);
+                    assert!((plane.normal.dot(plane.normal) - 1.0).abs() < 1e-15);
+                    if face == end || sides.contains(&face) {
+                        assert!(distance.abs() < 1e-14 * scale, "{face}: {distance}");
+                    } else {
+                        assert!(distance > 0.1, "{face}: {distance}");
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn vertices_and_planes_agree() {
+        for infinite in [false, true] {
+            let turned = Pose::new(
+                Vec3::new(3.0, -1.0, 1e3),
+                [[2.0, -1.0, 2.0], [2.0, 2.0, -1.0], [-1.0, 2.0, 2.0]].map(Vec3::from),
+            );
+            let skew = Pose::new(
+                Vec3::new(0.0, 7.0, 0.0),
+                [[1.0, 0.5, 0.0], [0.0, -1.0, 0.25], [0.0, 0.0, 0.5]].map(Vec3::from),
+            );
+            for (pose, scale) in [(Pose::IDENTITY, 1.0), (turned, 1e3), (skew, 10.0)] {
+                let frustum = Frustum::new(pose, shape(infinite)).unwrap();
+                check(&frustum, scale);
+                assert_eq!(frustum.planes().count(), if infinite { 5 } else { 6 });
+            }
+        }
+    }
+
+    #[test]
+    fn vertices_are_correctly_rounded() {
+        // Thirds are not doubles; the nearest doubles are literals.
+        let pose = Pose::new(
+            Vec3::default(),
+            [[3.0, 0.0, 0.0], [0.0, 3.0, 0.0], [0.0, 0.0, 3.0]].map(Vec3::from),
+        );
+        let frustum = Frustum::new(pose, shape(false)).unwrap();
+        let near = frustum.corners().near;
+        assert_eq!(near[0], Vec3::new(0.0, -1.0 / 3.0, -2.0 / 3.0));
+        assert_eq!(near[2], Vec3::new(1.0 / 3.0, 0.5 / 3.0, -2.0 / 3.0));
+    }
+
+    #[test]
+    fn extreme_scales() {
+        for s in [1e-300, 1e-160, 1e155, 1e300] {
+            let pose = Pose::new(
+                Vec3::default(),
+                [[s, 0.0, 0.0], [0.0, s, 0.0], [0.0, 0.0, s]].map(Vec3::from),
+            );
+            let frustum = Frustum::new(pose, shape(false)).unwrap();
+            assert_eq!(frustum.corners().near[1].x, 1.0 / s);
+            let near = frustum.plane(Face::Near).unwrap();
+            assert_eq!(near.normal, Vec3::new(0.0, 0.0, -1.0));
+            assert!((near.offset * s / -2.0 - 1.0).abs() < 1e-15);
+        }
+    }
+}

@@ -1,0 +1,552 @@
+//! A frustum from a view-projection matrix.
+//!
+//! A point is in view if its clip coordinates `(X, Y, Z, W) = M p` satisfy
+//! `W > 0`, `-W <= X <= W`, `-W <= Y <= W` and the two bounds of the
+//! [`ClipSpace`]'s depth. `X`, `Y`, `W` are linear in `p`, so they can *be* the
+//! frame: the axes are the matrix's own rows, unrounded, whatever their lengths
+//! and angles; the sides are `x = +-z`, `y = +-z`. What is left:
+//!
+//! 1. the eye, where `X = Y = W = 0`: an exact 3x3 system, rounded once a
+//!    coordinate;
+//! 2. `Z = c X + d Y + a W + b`, exactly. The depth bounds are then `W >= near`,
+//!    `W <= far` along the middle of the view, each rounded once. There is no
+//!    cancellation but what the matrix itself went through;
+//! 3. `c` and `d`: zero, unless rounding of the matrix tilted the near and far
+//!    planes against the picture. Their effect is reported, not corrected.
+//!
+//! Where `W` is constant the projection is parallel, and `X`, `Y`, `Z` are the
+//! frame. Conventions are types, because taking one for another gives a frustum
+//! that looks right: see [`ClipSpace`] and [`MatrixLayout`]. Handedness needs
+//! no convention; the rows have it.
+
+use super::exact_vec::{Dyadic, Dyadic3, Rounded, cross, dot, exact, unit};
+use super::{Direction, EndRect, Frustum, FrustumError, Shape};
+use crate::math::{Pose, Real, Rect, Vec3};
+use std::cmp::Ordering;
+
+/// How sixteen numbers make a matrix, and how the matrix acts on points.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum MatrixLayout {
+    /// `m[i]` is row `i`, and clip coordinates are `M p`: mathematics, C arrays
+    /// of HLSL `row_major` matrices with `mul(M, p)`.
+    RowMajorColumnVectors,
+    /// `m[j]` is column `j`, and clip coordinates are `M p`: OpenGL, GLSL, WGSL
+    /// memory, glam's `to_cols_array_2d`, nalgebra's storage, three.js.
+    ColumnMajorColumnVectors,
+    /// `m[i]` is row `i`, and clip coordinates are `p M`: DirectXMath, XNA,
+    /// `System.Numerics`. The same memory as `ColumnMajorColumnVectors`.
+    RowMajorRowVectors,
+    /// `m[j]` is column `j`, and clip coordinates are `p M`. The same memory as
+    /// `RowMajorColumnVectors`.
+    ColumnMajorRowVectors,
+}
+
+impl MatrixLayout {
+    fn holds_columns(self) -> bool {
+        matches!(
+            self,
+            Self::ColumnMajorColumnVectors | Self::RowMajorRowVectors
+        )
+    }
+}
+
+/// The range of `Z / W` that is in view.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum DepthRange {
+    /// `0 <= Z <= W`: Direct3D, Vulkan, Metal, WebGPU.
+    ZeroToOne,
+    /// `-W <= Z <= W`: OpenGL, WebGL.
+    MinusOneToOne,
+}
+
+/// Which way clip `Y` goes in the picture. It only tells top from bottom.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum ClipY {
+    /// Larger `Y` is higher: all but Vulkan.
+    Up,
+    /// Larger `Y` is lower: Vulkan, unless its viewport is flipped.
+    Down,
+}
+
+/// What a view-projection matrix maps to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct ClipSpace {
+    /// The range of depths.
+    pub depth: DepthRange,
+    /// Whether the near face has the *largest* depth (reversed Z).
+    pub reversed: bool,
+    /// Which way clip `Y` goes.
+    pub y: ClipY,
+}
+
+impl ClipSpace {
+    /// OpenGL, WebGL: depth `-1..1`, near at -1.
+    pub const OPENGL: Self = Self {
+        depth: DepthRange::MinusOneToOne,
+        reversed: false,
+        y: ClipY::Up,
+    };
+    /// Direct3D, Metal, WebGPU: depth `0..1`, near at 0.
+    pub const ZERO_TO_ONE: Self = Self {
+        depth: DepthRange::ZeroToOne,
+        reversed: false,
+        y: ClipY::Up,
+    };
+    /// Vulkan: depth `0..1`, near at 0, `Y` down.
+    pub const VULKAN: Self = Self {
+        depth: DepthRange::ZeroToOne,
+        reversed: false,
+        y: ClipY::Down,
+    };
+
+    /// The same, with near at the largest depth.
+    pub const fn reversed(self) -> Self {
+        Self {
+            reversed: true,
+            ..self
+        }
+    }
+}
+
+/// A world-to-clip matrix whose layout is known.
+///
+/// ```
+/// use frusta::{ClipSpace, MatrixLayout, ViewProjection};
+/// // 90 degrees, looking along -z from the origin, near 1, far at infinity,
+/// // depth reversed.
+/// let matrix = ViewProjection::new(
+///     [
+///         [1.0_f32, 0.0, 0.0, 0.0],
+///         [0.0, 1.0, 0.0, 0.0],
+///         [0.0, 0.0, 0.0, 1.0],
+///         [0.0, 0.0, -1.0, 0.0],
+///     ],
+///     MatrixLayout::RowMajorColumnVectors,
+/// );
+/// let found = matrix.frustum(ClipSpace::ZERO_TO_ONE.reversed())?;
+/// assert_eq!(found.frustum.shape().near().z, 1.0);
+/// assert!(found.frustum.shape().far().is_none());
+/// assert_eq!(found.deviation.sides, 0.0);
+/// # Ok::<(), frusta::FrustumError>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ViewProjection<T> {
+    rows: [[T; 4]; 4],
+}
+
+/// A frustum from a matrix, and how far it is from what the matrix says.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MatrixFrustum {
+    /// The frustum. Frame `z` is clip `W`: the distance from the eye for the
+    /// usual matrices, in any unit otherwise. (Orthographic: clip `Z`.)
+    pub frustum: Frustum,
+    /// The measured difference.
+    pub deviation: Deviation,
+}
+
+/// By how much the eight vertices of a frustum miss the exact clip volume of
+/// its matrix: from exact residuals, an upper bound for the largest of them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Deviation {
+    /// Of `X / W` and `Y / W` from `+-1`, at the vertices: rounding of the eye.
+    /// Infinite if the eye's rounding is as large as the near distance.
+    pub sides: f64,
+    /// Of the near face, as a fraction of the near distance (orthographic: of
+    /// the depth): rounding, and the tilt of the matrix's near plane.
+    pub near: f64,
+    /// Of the far face, as a fraction of the far distance (orthographic: of
+    /// the depth). At 1 and above, rounding of the matrix has left no far plane
+    /// to speak of. For an infinite frustum: the near distance over the closest
+    /// distance of the matrix's far plane, a plane that only rounding tilted
+    /// into view; 0 if there is none.
+    pub far: f64,
+}
+
+/// The nine parts of a perspective matrix as rows in the frame.
+struct Rows {
+    x: Vec3<f64>,
+    y: Vec3<f64>,
+    z: Vec3<f64>,
+    w: Vec3<f64>,
+    /// The constants of the four rows, in the same order.
+    constants: [f64; 4],
+}
+
+impl<T: Real> ViewProjection<T> {
+    /// From sixteen numbers.
+    pub fn new(entries: [[T; 4]; 4], layout: MatrixLayout) -> Self {
+        Self {
+            rows: if layout.holds_columns() {
+                transposed(entries)
+            } else {
+                entries
+            },
+        }
+    }
+
+    /// The sixteen numbers.
+    pub fn to_array(&self, layout: MatrixLayout) -> [[T; 4]; 4] {
+        if layout.holds_columns() {
+            transposed(self.rows)
+        } else {
+            self.rows
+        }
+    }
+
+    /// The frustum that the matrix maps to the clip volume.
+    ///
+    /// A far plane at or behind infinity, as far as rounding explains it, makes
+    /// an infinite frustum: in `f32` that is what a matrix made for `near =
+    /// 1e-6, far = 1e6` without reversed depth says, for its entries hold no
+    /// more.
+    ///
+    /// Error: see [`Deviation`], measured for each matrix. It counts from the
+    /// exact clip volume of the given entries; what rounding did before, the
+    /// matrix no longer says (a near plane at 0.1 seen from an eye at 1e7 is
+    /// lost in `f32`).
+    ///
+    /// # Errors
+    /// [`FrustumError::NonFinite`] with the entry;
+    /// [`FrustumError::SingularMatrix`]; [`FrustumError::NegativeW`];
+    /// [`FrustumError::TiltedDepth`] for near and far planes that are not
+    /// parallel to the picture, by more than `64 u` (`u` of `T`);
+    /// [`FrustumError::NoNearPlane`] and [`FrustumError::FarBehindEye`], which
+    /// a wrong [`ClipSpace`] causes; [`FrustumError::FarNotBeyondNear`];
+    /// [`FrustumError::Overflow`].
+    pub fn frustum(&self, clip: ClipSpace) -> Result<MatrixFrustum, FrustumError> {
+        let mut rows = [[0.0; 4]; 4];
+        for (i, row) in self.rows.iter().enumerate() {
+            for (j, entry) in row.iter().enumerate() {
+                rows[i][j] = entry.to_f64();
+                FrustumError::check_finite(ENTRY_NAMES[i][j], rows[i][j])?;
+            }
+        }
+        if clip.y == ClipY::Down {
+            rows[1] = rows[1].map(|e| 0.0 - e);
+        }
+        let [x, y, z, w] = rows.map(|[a, b, c, _]| Vec3::new(a, b, c));
+        let rows = Rows {
+            x,
+            y,
+            z,
+            w,
+            constants: rows.map(|row| row[3]),
+        };
+        if w == Vec3::default() {
+            parallel(&rows, clip)
+        } else {
+            perspective(&rows, clip, 64.0 * T::UNIT_ROUNDOFF)
+        }
+    }
+}
+
+fn transposed<T: Copy>(m: [[T; 4]; 4]) -> [[T; 4]; 4] {
+    std::array::from_fn(|i| std::array::from_fn(|j| m[j][i]))
+}
+
+const ENTRY_NAMES: [[&str; 4]; 4] = [
+    [
+        "row 0, column 0",
+        "row 0, column 1",
+        "row 0, column 2",
+        "row 0, column 3",
+    ],
+    [
+        "row 1, column 0",
+        "row 1, column 1",
+        "row 1, column 2",
+        "row 1, column 3",
+    ],
+    [
+        "row 2, column 0",
+        "row 2, column 1",
+        "row 2, column 2",
+        "row 2, column 3",
+    ],
+    [
+        "row 3, column 0",
+        "row 3, column 1",
+        "row 3, column 2",
+        "row 3, column 3",
+    ],
+];
+
+/// Three rows as a system of equations, solved by Cramer's rule.
+struct System {
+    /// Columns of the adjugate; the determinant is made positive.
+    columns: [Dyadic3; 3],
+    determinant: Dyadic,
+}
+
+impl System {
+    fn new(rows: [Vec3<f64>; 3]) -> Result<Self, FrustumError> {
+        let [a, b, c] = rows.map(exact);
+        let columns = [cross(&b, &c), cross(&c, &a), cross(&a, &b)];
+        let determinant = dot(&a, &columns[0]);
+        match determinant.order() {
+            Ordering::Equal => Err(FrustumError::SingularMatrix),
+            Ordering::Greater => Ok(Self {
+                columns,
+                determinant,
+            }),
+            Ordering::Less => Ok(Self {
+                columns: columns.map(|v| v.map(|x| -&x)),
+                determinant: -&determinant,
+            }),
+        }
+    }
+
+    /// The point where `row . p + constant` is zero for all three, rounded.
+    fn zero(&self, constants: [f64; 3]) -> Result<Vec3<f64>, FrustumError> {
+        let c = constants.map(|c| Dyadic::from(0.0 - c));
+        let p = Vec3::from(std::array::from_fn(|i| {
+            let term = |k: usize| &self.columns[k][i] * &c[k];
+            (&(&term(0) + &term(1)) + &term(2)).ratio(&self.determinant)
+        }));
+        if p.is_finite() {
+            Ok(p)
+        } else {
+            Err(FrustumError::Overflow { what: "the origin" })
+        }
+    }
+
+    /// How a vector is made of the three rows, times the determinant.
+    fn coefficients(&self, v: Vec3<f64>) -> Dyadic3 {
+        let v = exact(v);
+        std::array::from_fn(|k| dot(&self.columns[k], &v))
+    }
+}
+
+/// The exact value of a row at a point, rounded once.
+fn value(row: Vec3<f64>, constant: f64, p: Vec3<f64>) -> Dyadic {
+    &dot(&exact(row), &exact(p)) + &constant.into()
+}
+
+fn parallel(rows: &Rows, clip: ClipSpace) -> Result<MatrixFrustum, FrustumError> {
+    let [x, y, z, w] = rows.constants;
+    if w <= 0.0 {
+        return Err(FrustumError::NegativeW { w });
+    }
+    let axes = [rows.x, rows.y, rows.z];
+    let origin = System::new(axes)?.zero([x, y, z])?;
+    let low = match clip.depth {
+        DepthRange::ZeroToOne => 0.0,
+        DepthRange::MinusOneToOne => -w,
+    };
+    let (near, far) = if clip.reversed { (w, low) } else { (low, w) };
+    let rect = Rect::centred(w, w);
+    let residual = |row, constant| value(row, constant, origin).to_f64().abs();
+    let depth = residual(rows.z, z) / (w - low);
+    let shape = Shape::Finite {
+        near: EndRect { z: near, rect },
+        far: EndRect { z: far, rect },
+    };
+    Ok(MatrixFrustum {
+        frustum: Frustum::new(Pose::new(origin, axes), shape)?,
+        deviation: Deviation {
+            sides: residual(rows.x, x).max(residual(rows.y, y)) / w,
+            near: depth,
+            far: depth,
+        },
+    })
+}
+
+/// A bound on depth, as a function of `W` along the middle of the view:
+/// `slope * W + constant >= 0` (both times the determinant).
+struct DepthBound {
+    slope: Dyadic,
+    constant: Dyadic,
+    /// The bound of `Z / W` it comes from.
+    depth: f64,
+}
+
+/// `Z` in terms of `X, Y, W`, all times the determinant, which is positive.
+struct Depth {
+    /// `|c| + |d|`: the tilt.
+    tilt: Dyadic,
+    /// `b`.
+    at_eye: Dyadic,
+    determinant: Dyadic,
+    near: DepthBound,
+    far: DepthBound,
+}
+
+impl Depth {
+    fn new(rows: &Rows, system: &System, clip: ClipSpace) -> Self {
+        let [c, d, a] = system.coefficients(rows.z);
+        let [x, y, z, w] = rows.constants.map(Dyadic::from);
+        let determinant = system.determinant.clone();
+        let plane = &(&(&c * &x) + &(&d * &y)) + &(&a * &w);
+        let at_eye = &(&z * &determinant) - &plane;
+        let low = match clip.depth {
+            DepthRange::ZeroToOne => 0.0,
+            DepthRange::MinusOneToOne => -1.0,
+        };
+        let above = DepthBound {
+            slope: &a - &(&determinant * &low.into()),
+            constant: at_eye.clone(),
+            depth: low,
+        };
+        let below = DepthBound {
+            slope: &determinant - &a,
+            constant: -&at_eye,
+            depth: 1.0,
+        };
+        let (near, far) = if clip.reversed {
+            (below, above)
+        } else {
+            (above, below)
+        };
+        Self {
+            tilt: &absolute(c) + &absolute(d),
+            at_eye,
+            determinant,
+            near,
+            far,
+        }
+    }
+
+    fn near_distance(&self) -> Result<f64, FrustumError> {
+        let near = &self.near;
+        let distance = (-&near.constant).ratio(&near.slope);
+        if near.slope.order() != Ordering::Greater || near.constant.order() == Ordering::Greater {
+            return Err(FrustumError::NoNearPlane { w: distance });
+        }
+        if near.constant.order() == Ordering::Equal {
+            // Depth does not vary.
+            return Err(FrustumError::SingularMatrix);
+        }
+        if distance == 0.0 {
+            return Err(FrustumError::Underflow {
+                what: "the near distance",
+            });
+        }
+        if distance.is_infinite() {
+            return Err(FrustumError::Overflow {
+                what: "the near distance",
+            });
+        }
+        Ok(distance)
+    }
+
+    /// `None`: there is no far plane.
+    fn far_distance(&self, near: f64, slack: f64) -> Result<Option<f64>, FrustumError> {
+        let far = &self.far;
+        if far.slope.order() != Ordering::Less {
+            // At infinity, or beyond it by rounding.
+            let beyond = far.slope.ratio(&self.determinant);
+            if beyond > slack {
+                let w = far.constant.ratio(&-&far.slope);
+                return Err(FrustumError::FarBehindEye { w });
+            }
+            return Ok(None);
+        }
+        let distance = far.constant.ratio(&-&far.slope);
+        if distance.is_infinite() {
+            return Err(FrustumError::Overflow {
+                what: "the far distance",
+            });
+        }
+        if distance <= near {
+            return Err(FrustumError::FarNotBeyondNear {
+                near,
+                far: distance,
+            });
+        }
+        Ok(Some(distance))
+    }
+
+    /// How far a bound's plane is off at the corners of the rectangle at
+    /// `distance`, relative to it.
+    fn displacement(&self, bound: &DepthBound, distance: f64, z: &Dyadic, w: &Dyadic) -> f64 {
+        // The tilt, the eye's rounding, the distance's rounding.
+        let tilt = self.tilt.ratio(&bound.slope).abs();
+        let shift = &(z - &(w * &bound.depth.into())) * &self.determinant;
+        let shift = (&shift - &self.at_eye).ratio(&bound.slope).abs();
+        tilt + shift / distance + f64::EPSILON
+    }
+
+    /// The near distance over that at which a tilted far plane comes into view.
+    fn stray_far_plane(&self, near: f64) -> f64 {
+        let excess = &self.tilt - &self.far.slope;
+        match excess.order() {
+            Ordering::Greater => near * excess.ratio(&self.far.constant),
+            _ => 0.0,
+        }
+    }
+}
+
+fn absolute(x: Dyadic) -> Dyadic {
+    match x.order() {
+        Ordering::Less => -&x,
+        _ => x,
+    }
+}
+
+fn perspective(rows: &Rows, clip: ClipSpace, slack: f64) -> Result<MatrixFrustum, FrustumError> {
+    let axes = [rows.x, rows.y, rows.w];
+    let system = System::new(axes)?;
+    check_tilt(rows, slack)?;
+    let depth = Depth::new(rows, &system, clip);
+    let near = depth.near_distance()?;
+    let far = depth.far_distance(near, slack)?;
+    let [x, y, z, w] = rows.constants;
+    let origin = system.zero([x, y, w])?;
+    let square = |z| EndRect {
+        z,
+        rect: Rect::centred(z, z),
+    };
+    let shape = match far {
+        Some(far) => Shape::Finite {
+            near: square(near),
+            far: square(far),
+        },
+        None => Shape::Infinite {
+            near: square(near),
+            slopes: Rect::centred(1.0, 1.0),
+            direction: Direction::PlusZ,
+        },
+    };
+
+    // Where the rounded origin stands in clip space.
+    let x = value(rows.x, x, origin).to_f64().abs();
+    let y = value(rows.y, y, origin).to_f64().abs();
+    let z = value(rows.z, z, origin);
+    let w = value(rows.w, w, origin);
+    let off = w.to_f64().abs();
+    let deviation = Deviation {
+        sides: if off < near {
+            (x.max(y) + off) / (near - off)
+        } else {
+            f64::INFINITY
+        },
+        near: depth.displacement(&depth.near, near, &z, &w),
+        far: match far {
+            Some(far) => depth.displacement(&depth.far, far, &z, &w),
+            None => depth.stray_far_plane(near),
+        },
+    };
+    Ok(MatrixFrustum {
+        frustum: Frustum::new(Pose::new(origin, axes), shape)?,
+        deviation,
+    })
+}
+
+/// Near and far planes are combinations of the rows `Z` and `W`: parallel to
+/// the picture if these two are.
+fn check_tilt(rows: &Rows, slack: f64) -> Result<(), FrustumError> {
+    let (Some(z), Some(w)) = (unit(&exact(rows.z)), unit(&exact(rows.w))) else {
+        // `Z` is zero, for depth reversed to infinity; `W` is not.
+        return Ok(());
+    };
+    let sine = z.cross(w);
+    let sine = sine.dot(sine).sqrt();
+    // Rounding in `W` counts for a short `Z`, too. Both lengths at most differ
+    // by a factor beyond the range of doubles: then the quotient is infinite.
+    let largest = |v: Vec3<f64>| v.x.abs().max(v.y.abs()).max(v.z.abs());
+    if sine > slack * (1.0 + largest(rows.w) / largest(rows.z)) {
+        Err(FrustumError::TiltedDepth { sine })
+    } else {
+        Ok(())
+    }
+}

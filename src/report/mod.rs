@@ -1,0 +1,10 @@
+//! Measuring clippers and saying what was found.
+
+mod verify;
+mod verify_table;
+
+pub use verify::{ExactClipper, FamilyRow, Options, Subject, Witness, verify};
+pub use verify_table::VerifyTable;
+
+#[cfg(test)]
+mod tests;

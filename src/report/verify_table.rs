@@ -1,0 +1,100 @@
+//! The table of a verification, in lines of at most 120 columns.
+
+use super::verify::FamilyRow;
+use crate::oracle::ViolationKind as Kind;
+use std::fmt;
+
+/// Displays rows as a table, their sum, and the first witnesses.
+#[derive(Clone, Copy, Debug)]
+pub struct VerifyTable<'a>(pub &'a [FamilyRow]);
+
+/// The table's columns of violations, and what each sums up.
+const COLUMNS: [(&str, &[Kind]); 7] = [
+    ("class", &[Kind::Class]),
+    ("sets", &[Kind::Set]),
+    ("ends", &[Kind::UnclippedEnd, Kind::EndDepth]),
+    ("points", &[Kind::Point, Kind::Parameter, Kind::Order]),
+    (
+        "inward",
+        &[Kind::NotInward, Kind::InwardMissed, Kind::InwardFlag],
+    ),
+    ("G5", &[Kind::Swapped]),
+    ("G6", &[Kind::Idempotence]),
+];
+
+const WIDTH: usize = 120;
+
+impl fmt::Display for VerifyTable<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{:<18} {:>3} {:>9}", "family", "", "cases")?;
+        for (name, _) in COLUMNS {
+            write!(f, " {name:>6}")?;
+        }
+        writeln!(
+            f,
+            " {:>5} {:>5} {:>5} {:>5} {:>6} {:>5}",
+            "filt.%", "exp.%", "int.%", "none%", "G7max", "mean"
+        )?;
+        for row in self.0 {
+            line(f, row.family.name(), row.scalar, row)?;
+        }
+        let mut rows = self.0.iter().cloned();
+        if let Some(mut total) = rows.next() {
+            rows.for_each(|row| total.merge(row));
+            line(f, "all", "", &total)?;
+        }
+        let refused: u64 = self.0.iter().map(|r| r.count(Kind::Refused)).sum();
+        if refused > 0 {
+            writeln!(f, "{refused} cases were refused or panicked")?;
+        }
+        for row in self.0 {
+            if let Some(witness) = &row.witness {
+                let text = format!("{} {} {witness}", row.family, row.scalar);
+                wrapped(f, &text)?;
+            }
+        }
+        Ok(())
+    }
+}
+
+fn line(f: &mut fmt::Formatter<'_>, name: &str, scalar: &str, row: &FamilyRow) -> fmt::Result {
+    write!(f, "{name:<18} {scalar:>3} {:>9}", row.cases)?;
+    for (_, kinds) in COLUMNS {
+        let count: u64 = kinds.iter().map(|&k| row.count(k)).sum();
+        write!(f, " {count:>6}")?;
+    }
+    let share = |n: u64, of: u64| {
+        let percent = 100.0 * n as f64 / of.max(1) as f64;
+        // Three digits, however small.
+        let decimals = if percent < 9.995 { 2 } else { 1 };
+        format!("{percent:.decimals$}")
+    };
+    writeln!(
+        f,
+        " {:>5} {:>5} {:>5} {:>5} {:>6.3} {:>5.2}",
+        share(row.filter_failures, row.cases),
+        share(row.expansions, row.cases),
+        share(row.integers, row.cases),
+        share(row.not_inward, row.inward_ends),
+        row.room_max,
+        row.room_mean(),
+    )
+}
+
+/// Words in lines of at most [`WIDTH`] columns, those after the first indented.
+fn wrapped(f: &mut fmt::Formatter<'_>, text: &str) -> fmt::Result {
+    let mut column = 0;
+    for word in text.split(' ') {
+        if column > 0 && column + 1 + word.len() > WIDTH {
+            write!(f, "\n   ")?;
+            column = 3;
+        }
+        if column > 0 {
+            f.write_str(" ")?;
+            column += 1;
+        }
+        f.write_str(word)?;
+        column += word.len();
+    }
+    writeln!(f)
+}

@@ -1,0 +1,96 @@
+//! The command `frusta`, run as a program.
+#![cfg(feature = "cli")]
+
+mod bad_input;
+mod formats;
+mod output;
+mod statistics;
+mod view;
+
+use serde_json::Value;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+/// Flags of a frustum that takes in everything in a small scene.
+const WIDE: [&str; 10] = [
+    "--eye", "0,0,50", "--target", "0,0,0", "--ortho", "90", "--near", "0", "--far", "100",
+];
+
+/// A file of `tests/fixtures`.
+fn fixture(name: &str) -> String {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("tests/fixtures")
+        .join(name);
+    path.to_str().unwrap().to_owned()
+}
+
+/// Runs `frusta clip`.
+fn clip<S: AsRef<std::ffi::OsStr>>(args: impl IntoIterator<Item = S>) -> Output {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_frusta"));
+    command.arg("clip").args(args).output().unwrap()
+}
+
+/// Runs `frusta clip --json` and gives the statistics.
+fn statistics(args: &[&str]) -> Value {
+    let output = clip(args.iter().copied().chain(["--json"]));
+    assert!(
+        output.status.success(),
+        "{args:?}: {}",
+        text(&output.stderr)
+    );
+    serde_json::from_slice(&output.stdout).unwrap()
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8(bytes.to_vec()).unwrap()
+}
+
+/// A folder for one test.
+struct Folder(tempfile::TempDir);
+
+impl Folder {
+    fn new() -> Self {
+        Self(tempfile::tempdir().unwrap())
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.0.path().join(name)
+    }
+
+    fn name(&self, name: &str) -> String {
+        self.path(name).to_str().unwrap().to_owned()
+    }
+
+    fn write(&self, name: &str, content: impl AsRef<[u8]>) -> String {
+        std::fs::write(self.path(name), content).unwrap();
+        self.name(name)
+    }
+
+    fn read(&self, name: &str) -> String {
+        std::fs::read_to_string(self.path(name)).unwrap()
+    }
+
+    /// Names of all files in it.
+    fn files(&self) -> Vec<String> {
+        let entries = std::fs::read_dir(self.0.path()).unwrap();
+        let mut names: Vec<String> = entries
+            .map(|e| e.unwrap().file_name().into_string().unwrap())
+            .collect();
+        names.sort();
+        names
+    }
+
+    /// Clips a file to CSV and gives the rows after the header.
+    fn rows(&self, args: &[&str]) -> Vec<String> {
+        let out = self.name("rows.csv");
+        let run = clip(args.iter().copied().chain(["-o", &out]));
+        assert!(run.status.success(), "{args:?}: {}", text(&run.stderr));
+        let content = self.read("rows.csv");
+        let mut lines = content.lines().map(str::to_owned);
+        assert_eq!(
+            lines.next().unwrap(),
+            "index,class,t0,t1,x0,y0,z0,x1,y1,z1,enter,leave,coplanar"
+        );
+        lines.collect()
+    }
+}
