@@ -339,7 +339,9 @@ fn fast<T: Real>(
     let t = from_end.bitselect(all(1.0) - tau, tau);
     let signed = from_end.bitselect(-tau, tau);
     let place = |p: f64, q: f64| {
-        let point = from_end.bitselect(all(q), all(p)) + signed * all(q - p);
+        // Adding zero: the sign of a zero must not depend on the order of the
+        // ends.
+        let point = from_end.bitselect(all(q), all(p)) + signed * all(q - p) + all(0.0);
         point.to_array().map(T::from_f64)
     };
     let (x, y) = (place(start.x, end.x), place(start.y, end.y));
