@@ -36,8 +36,9 @@ use super::{Face, Form, Frustum, General, Layout, Shape};
 use crate::exact::double_double::Dd;
 use crate::exact::expansion::in_safe_range;
 use crate::exact::float::{exp2, lowest_bit, two_diff, two_prod};
-use crate::math::{Pose, Vec3};
+use crate::math::{Pose, Segment, Vec3};
 use std::cmp::Ordering;
+use wide::f64x2;
 
 /// 2^-46.
 const RELATIVE: f64 = 1.4210854715202004e-14;
@@ -93,6 +94,19 @@ pub(crate) struct Values {
     pub(crate) g: [f64; 6],
     /// S, the size of the point as the bound sees it.
     pub(crate) size: f64,
+}
+
+impl Values {
+    /// (near, far), (left, right), (bottom, top).
+    #[inline(always)]
+    pub(crate) fn pairs(&self) -> [f64x2; 3] {
+        let g = &self.g;
+        [
+            f64x2::new([g[0], g[1]]),
+            f64x2::new([g[2], g[3]]),
+            f64x2::new([g[4], g[5]]),
+        ]
+    }
 }
 
 impl Filter {
@@ -204,6 +218,22 @@ impl Filter {
                 Ordering::Less
             }
         })
+    }
+
+    /// As [`Filter::is_lattice`], for both ends of a segment, side by side.
+    #[inline(always)]
+    pub(crate) fn on_lattice(&self, segment: &Segment<f64>, p: &Values, q: &Values) -> bool {
+        let Some(lattice) = self.lattice else {
+            return false;
+        };
+        let round = f64x2::splat(lattice.round);
+        let on = |p: f64, q: f64| {
+            let v = f64x2::new([p, q]);
+            ((v + round) - round).simd_eq(v)
+        };
+        let Segment { start, end } = segment;
+        let all = on(start.x, end.x) & on(start.y, end.y) & on(start.z, end.z);
+        all.all() & (p.size + q.size < lattice.limit)
     }
 
     /// Whether all values at this point, and products of two of them, are free

@@ -5,11 +5,15 @@
 //! decide    a span and the predicates give class, sets and where the ends are
 //! points    the ends' parameters and coordinates, to the accuracy asked for
 //! vw        V/W with certificates instead, where rounded values prove enough
+//! lattice   the same where floating point makes no error at all
+//! pair      both ends of a segment side by side
 //! inward    the representable point next to an end that is in the frustum
 //! ```
 
 mod decide;
 mod inward;
+mod lattice;
+mod pair;
 mod points;
 mod staged;
 pub(crate) mod vw;

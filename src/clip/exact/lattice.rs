@@ -1,0 +1,148 @@
+//! V/W where floating point makes no error: coordinates on a coarse grid, and
+//! a frustum whose numbers are.
+//!
+//! Values have at most 25 bits ([`Filter`] sees to that), so they and their
+//! differences are exact. Two crossing parameters that differ do so by more
+//! than 2^-52, and each quotient is rounded by at most 2^-54: rounded
+//! parameters are in the order of the exact ones, and equal where they are. So
+//! the plain algorithm decides exactly, also what touches, at its own speed.
+//! Grid-aligned models against grid-aligned boxes are all of this kind.
+
+use super::pair;
+use crate::clip::{Class, SegmentClip};
+use crate::frustum::FaceSet;
+use crate::frustum::filter::{Filter, Values};
+use crate::math::{Real, Segment};
+use wide::f64x2;
+
+/// Clips a segment with exact values.
+#[inline(never)]
+pub(super) fn clip<T: Real>(
+    filter: &Filter,
+    segment: &Segment<T>,
+    wide: &Segment<f64>,
+    p: &Values,
+    q: &Values,
+) -> SegmentClip<T> {
+    let all = f64x2::splat;
+    let zero = all(0.0);
+    let (a, b) = (p.pairs(), q.pairs());
+    let greater = |i: usize| a[i].fast_max(b[i]);
+    if greater(0)
+        .fast_min(greater(1))
+        .fast_min(greater(2))
+        .simd_lt(zero)
+        .any()
+    {
+        return SegmentClip::OUTSIDE;
+    }
+    let (mut enter, mut leave) = ([zero; 3], [zero; 3]);
+    for i in 0..3 {
+        let t = a[i] / (a[i] - b[i]);
+        // Faces that are not crossed stand where they change nothing; so do
+        // those with two equal values, whose t is no number.
+        let level = a[i].simd_eq(b[i]);
+        enter[i] = (a[i].simd_gt(zero) | level).bitselect(all(-1.0), t);
+        leave[i] = (b[i].simd_gt(zero) | level).bitselect(all(2.0), t);
+    }
+    let last = enter[0].fast_max(enter[1]).fast_max(enter[2]).to_array();
+    let first = leave[0].fast_min(leave[1]).fast_min(leave[2]).to_array();
+    let t0 = last[0].max(last[1]).max(0.0);
+    let t1 = first[0].min(first[1]).min(1.0);
+    if t0 > t1 {
+        return SegmentClip::OUTSIDE;
+    }
+    let at = [t0, t1];
+    let set = |v: &dyn Fn(usize) -> f64x2| {
+        FaceSet::from_bits(
+            (v(0).to_bitmask() | v(1).to_bitmask() << 2 | v(2).to_bitmask() << 4) as u8,
+        )
+    };
+    let coplanar = set(&|i| a[i].simd_eq(zero) & b[i].simd_eq(zero));
+    let entered = set(&|i| enter[i].simd_ge(all(t0)));
+    let left = set(&|i| leave[i].simd_le(all(t1)));
+    let clipped = [
+        !set(&|i| a[i].simd_lt(zero)).is_empty(),
+        !set(&|i| b[i].simd_lt(zero)).is_empty(),
+    ];
+    finish(
+        filter,
+        segment,
+        wide,
+        [p, q],
+        &Found {
+            at,
+            faces: [entered, left],
+            coplanar,
+            clipped,
+        },
+    )
+}
+
+/// Parameters, the faces crossed there, and whether the segment goes on.
+struct Found {
+    at: [f64; 2],
+    faces: [FaceSet; 2],
+    coplanar: FaceSet,
+    clipped: [bool; 2],
+}
+
+#[inline(always)]
+fn finish<T: Real>(
+    filter: &Filter,
+    segment: &Segment<T>,
+    wide: &Segment<f64>,
+    [p, q]: [&Values; 2],
+    found: &Found,
+) -> SegmentClip<T> {
+    let Found {
+        at,
+        faces,
+        coplanar,
+        clipped,
+    } = *found;
+    if segment.start == segment.end {
+        return point(segment, coplanar);
+    }
+    let touch = at[0] == at[1];
+    let both = faces[0].union(faces[1]);
+    let faces = if touch { [both, both] } else { faces };
+    let class = if touch {
+        Class::Touch
+    } else if !coplanar.is_empty() {
+        Class::Boundary
+    } else if clipped[0] | clipped[1] {
+        Class::Cross
+    } else {
+        Class::Inside
+    };
+    // The first face crossed at each end; any number where there is none.
+    let number = |i: usize| (faces[i].bits().trailing_zeros() as usize).min(5);
+    let crossed = [number(0), number(1)];
+    let [e, l] = crossed;
+    let a = f64x2::new([p.g[e], p.g[l]]).abs();
+    let b = f64x2::new([q.g[e], q.g[l]]).abs();
+    // At the segment's own ends there is nothing to construct.
+    let at = f64x2::new(at);
+    let between = at.simd_gt(f64x2::splat(0.0)) & at.simd_lt(f64x2::splat(1.0));
+    let mut points = pair::construct(filter, wide, crossed, [a, b], between);
+    if touch && !between.all() {
+        points = points.of_lane(usize::from(at.to_array()[0] == 1.0));
+    }
+    let sets = [faces[0].union(coplanar), faces[1].union(coplanar)];
+    pair::assemble(class, &points, clipped, sets, coplanar)
+}
+
+/// A segment of zero length in the frustum, on these faces.
+#[cold]
+fn point<T: Real>(segment: &Segment<T>, on: FaceSet) -> SegmentClip<T> {
+    let mut result = pair::inside(segment);
+    if !on.is_empty() {
+        result.class = Class::Touch;
+    }
+    if let Some(part) = &mut result.part {
+        part.entry.faces = on;
+        part.exit.faces = on;
+    }
+    result
+}
