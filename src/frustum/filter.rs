@@ -90,22 +90,17 @@ struct Lattice {
 /// The six boundary values at a point, rounded.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Values {
-    /// In the order of [`Face::ALL`].
-    pub(crate) g: [f64; 6],
+    /// (near, far), (left, right), (bottom, top).
+    pub(crate) pairs: [f64x2; 3],
     /// S, the size of the point as the bound sees it.
     pub(crate) size: f64,
 }
 
 impl Values {
-    /// (near, far), (left, right), (bottom, top).
+    /// A face's value, by number in the order of [`Face::ALL`].
     #[inline(always)]
-    pub(crate) fn pairs(&self) -> [f64x2; 3] {
-        let g = &self.g;
-        [
-            f64x2::new([g[0], g[1]]),
-            f64x2::new([g[2], g[3]]),
-            f64x2::new([g[4], g[5]]),
-        ]
+    pub(crate) fn of(&self, face: usize) -> f64 {
+        self.pairs[face / 2].to_array()[face % 2]
     }
 }
 
@@ -134,7 +129,11 @@ impl Filter {
         let [left, right] = L::sides(&self.at_near, &self.slope, 0, depth, q.x);
         let [bottom, top] = L::sides(&self.at_near, &self.slope, 2, depth, q.y);
         Values {
-            g: [depth, far, left, right, bottom, top],
+            pairs: [
+                f64x2::new([depth, far]),
+                f64x2::new([left, right]),
+                f64x2::new([bottom, top]),
+            ],
             size,
         }
     }
@@ -182,7 +181,7 @@ impl Filter {
     /// the identity pose the difference of two doubles has the exact sign.
     #[inline(always)]
     pub(crate) fn sign(&self, face: Face, values: &Values) -> Option<Ordering> {
-        let g = values.g[face as usize];
+        let g = values.of(face as usize);
         if !self.covers(values.size) {
             return None;
         }
@@ -476,7 +475,7 @@ mod tests {
                 for face in Face::ALL {
                     let exact: Dyadic = boundary(frustum, face, p).expect("integers have room");
                     let t = filter.threshold(face, values.size);
-                    let g = values.g[face as usize];
+                    let g = values.of(face as usize);
                     if g.abs() > t {
                         let sign = g.partial_cmp(&0.0).unwrap_or(Ordering::Equal);
                         assert_eq!(exact.sign(), sign, "{face} at {p}");

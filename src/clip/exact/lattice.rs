@@ -20,13 +20,12 @@ use wide::f64x2;
 pub(super) fn clip<T: Real>(
     filter: &Filter,
     segment: &Segment<T>,
-    wide: &Segment<f64>,
     p: &Values,
     q: &Values,
 ) -> SegmentClip<T> {
     let all = f64x2::splat;
     let zero = all(0.0);
-    let (a, b) = (p.pairs(), q.pairs());
+    let (a, b) = (&p.pairs, &q.pairs);
     let greater = |i: usize| a[i].fast_max(b[i]);
     if greater(0)
         .fast_min(greater(1))
@@ -45,38 +44,54 @@ pub(super) fn clip<T: Real>(
         enter[i] = (a[i].simd_gt(zero) | level).bitselect(all(-1.0), t);
         leave[i] = (b[i].simd_gt(zero) | level).bitselect(all(2.0), t);
     }
-    let last = enter[0].fast_max(enter[1]).fast_max(enter[2]).to_array();
-    let first = leave[0].fast_min(leave[1]).fast_min(leave[2]).to_array();
-    let t0 = last[0].max(last[1]).max(0.0);
-    let t1 = first[0].min(first[1]).min(1.0);
+    // The unclipped interval, 0 to 1, stands beside both.
+    let last = enter[0]
+        .fast_max(enter[1])
+        .fast_max(enter[2])
+        .fast_max(zero);
+    let first = leave[0]
+        .fast_min(leave[1])
+        .fast_min(leave[2])
+        .fast_min(all(1.0));
+    let ([e, f], [l, m]) = (last.to_array(), first.to_array());
+    let t0 = if e > f { e } else { f };
+    let t1 = if l < m { l } else { m };
     if t0 > t1 {
         return SegmentClip::OUTSIDE;
     }
     let at = [t0, t1];
-    let set = |v: &dyn Fn(usize) -> f64x2| {
-        FaceSet::from_bits(
-            (v(0).to_bitmask() | v(1).to_bitmask() << 2 | v(2).to_bitmask() << 4) as u8,
-        )
-    };
-    let coplanar = set(&|i| a[i].simd_eq(zero) & b[i].simd_eq(zero));
-    let entered = set(&|i| enter[i].simd_ge(all(t0)));
-    let left = set(&|i| leave[i].simd_le(all(t1)));
+    let on = |i: usize| a[i].simd_eq(zero) & b[i].simd_eq(zero);
+    let entered = |i: usize| enter[i].simd_ge(all(t0));
+    let left = |i: usize| leave[i].simd_le(all(t1));
+    let (outside_a, outside_b) = (|i: usize| a[i].simd_lt(zero), |i: usize| b[i].simd_lt(zero));
+    let any = |m: [f64x2; 3]| (m[0] | m[1] | m[2]).any();
     let clipped = [
-        !set(&|i| a[i].simd_lt(zero)).is_empty(),
-        !set(&|i| b[i].simd_lt(zero)).is_empty(),
+        any([outside_a(0), outside_a(1), outside_a(2)]),
+        any([outside_b(0), outside_b(1), outside_b(2)]),
     ];
+    let faces = [
+        set([entered(0), entered(1), entered(2)]),
+        set([left(0), left(1), left(2)]),
+    ];
+    let coplanar = set([on(0), on(1), on(2)]);
     finish(
         filter,
         segment,
-        wide,
         [p, q],
         &Found {
             at,
-            faces: [entered, left],
+            faces,
             coplanar,
             clipped,
         },
     )
+}
+
+/// The faces whose lanes are set.
+#[inline(always)]
+fn set(lanes: [f64x2; 3]) -> FaceSet {
+    let bits = lanes[0].to_bitmask() | lanes[1].to_bitmask() << 2 | lanes[2].to_bitmask() << 4;
+    FaceSet::from_bits((bits & 0x3f) as u8)
 }
 
 /// Parameters, the faces crossed there, and whether the segment goes on.
@@ -91,7 +106,6 @@ struct Found {
 fn finish<T: Real>(
     filter: &Filter,
     segment: &Segment<T>,
-    wide: &Segment<f64>,
     [p, q]: [&Values; 2],
     found: &Found,
 ) -> SegmentClip<T> {
@@ -120,12 +134,12 @@ fn finish<T: Real>(
     let number = |i: usize| (faces[i].bits().trailing_zeros() as usize).min(5);
     let crossed = [number(0), number(1)];
     let [e, l] = crossed;
-    let a = f64x2::new([p.g[e], p.g[l]]).abs();
-    let b = f64x2::new([q.g[e], q.g[l]]).abs();
+    let a = f64x2::new([p.of(e), p.of(l)]).abs();
+    let b = f64x2::new([q.of(e), q.of(l)]).abs();
     // At the segment's own ends there is nothing to construct.
     let at = f64x2::new(at);
     let between = at.simd_gt(f64x2::splat(0.0)) & at.simd_lt(f64x2::splat(1.0));
-    let mut points = pair::construct(filter, wide, crossed, [a, b], between);
+    let mut points = pair::construct(filter, &segment.to_f64(), crossed, [a, b], between);
     if touch && !between.all() {
         points = points.of_lane(usize::from(at.to_array()[0] == 1.0));
     }

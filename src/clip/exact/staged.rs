@@ -95,7 +95,7 @@ impl<'a> Staged<'a> {
     pub(crate) fn certain(&self, face: Face) -> bool {
         let filter = self.filter();
         self.values.iter().all(|v| {
-            filter.covers(v.size) && v.g[face as usize].abs() > filter.threshold(face, v.size)
+            filter.covers(v.size) && v.of(face as usize).abs() > filter.threshold(face, v.size)
         })
     }
 
@@ -150,8 +150,8 @@ impl<'a> Staged<'a> {
     fn filtered_cross(&self, a: Face, b: Face) -> Option<Ordering> {
         let filter = self.filter();
         let [p, q] = &self.values;
-        let (pa, qa) = (p.g[a as usize], q.g[a as usize]);
-        let (pb, qb) = (p.g[b as usize], q.g[b as usize]);
+        let (pa, qa) = (p.of(a as usize), q.of(a as usize));
+        let (pb, qb) = (p.of(b as usize), q.of(b as usize));
         let cross = qa * pb - pa * qb;
         if self.lattice {
             return cross.partial_cmp(&0.0);
@@ -221,7 +221,7 @@ impl<'a> Staged<'a> {
     fn learn(&mut self, face: Face, end: End) {
         let values = self.values[end as usize];
         let sign = if self.lattice {
-            let g = values.g[face as usize];
+            let g = values.of(face as usize);
             g.partial_cmp(&0.0).unwrap_or(Ordering::Equal)
         } else {
             self.sign_at(face, self.point(end), &values)

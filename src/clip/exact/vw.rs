@@ -65,7 +65,7 @@ fn clip_in<T: Real, L: Layout>(
     let p = filter.values_in::<L>(wide.start);
     let q = filter.values_in::<L>(wide.end);
     if accuracy == Accuracy::Fast && filter.on_lattice(&wide, &p, &q) {
-        return Ok(lattice::clip(filter, segment, &wide, &p, &q));
+        return Ok(lattice::clip(filter, segment, &p, &q));
     }
     match triage(filter, &p, &q) {
         Triage::Outside => Ok(SegmentClip::OUTSIDE),
@@ -75,8 +75,9 @@ fn clip_in<T: Real, L: Layout>(
     }
 }
 
-/// Clips what certainly has ends on both sides of some faces.
-#[inline(always)]
+/// Clips what certainly has ends on both sides of some faces. Out of line, so
+/// that the early outs carry nothing of it.
+#[inline(never)]
 fn cross<T: Real>(
     frustum: &Frustum,
     segment: &Segment<T>,
@@ -87,7 +88,7 @@ fn cross<T: Real>(
 ) -> Result<SegmentClip<T>, NonFinite> {
     let filter = frustum.filter();
     let thresholds = thresholds(filter, p.size + q.size);
-    match certify(&p.pairs(), &q.pairs(), thresholds) {
+    match certify(&p.pairs, &q.pairs, thresholds) {
         Certificate::Outside => return Ok(SegmentClip::OUTSIDE),
         Certificate::Cross(crossing) if accuracy == Accuracy::Fast => {
             return Ok(fast(filter, &segment.to_f64(), &crossing));
@@ -134,7 +135,7 @@ fn triage(filter: &Filter, p: &Values, q: &Values) -> Triage {
     }
     let (depth, side) = thresholds(filter, size);
     let (depth, side) = (f64x2::splat(depth), f64x2::splat(side));
-    let (a, b) = (p.pairs(), q.pairs());
+    let (a, b) = (&p.pairs, &q.pairs);
     let greater = |i: usize| a[i].fast_max(b[i]);
     let sides = greater(1).fast_min(greater(2));
     if (greater(0).simd_lt(-depth) | sides.simd_lt(-side)).any() {
