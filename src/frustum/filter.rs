@@ -219,7 +219,8 @@ impl Filter {
         })
     }
 
-    /// As [`Filter::is_lattice`], for both ends of a segment, side by side.
+    /// Whether all values at both ends, and quotients of two of them, are in exact
+    /// order: see [`Lattice`].
     #[inline(always)]
     pub(crate) fn on_lattice(&self, segment: &Segment<f64>, p: &Values, q: &Values) -> bool {
         let Some(lattice) = self.lattice else {
@@ -232,18 +233,18 @@ impl Filter {
         };
         let Segment { start, end } = segment;
         let all = on(start.x, end.x) & on(start.y, end.y) & on(start.z, end.z);
-        all.all() & (p.size + q.size < lattice.limit)
+        all.all() & (p.size < lattice.limit) & (q.size < lattice.limit)
     }
 
-    /// Whether all values at this point, and products of two of them, are free
-    /// of rounding errors.
+    /// False for nearly all points that are not on the lattice; cheap.
     #[inline(always)]
-    pub(crate) fn is_lattice(&self, p: Vec3<f64>, size: f64) -> bool {
+    pub(crate) fn may_be_lattice(&self, p: Vec3<f64>) -> bool {
         let Some(lattice) = self.lattice else {
             return false;
         };
-        let on = |v: f64| (v + lattice.round) - lattice.round == v;
-        size < lattice.limit && on(p.x) && on(p.y) && on(p.z)
+        let round = f64x2::splat(lattice.round);
+        let v = f64x2::new([p.x, p.y]);
+        ((v + round) - round).simd_eq(v).all()
     }
 
     /// Prepares a valid frustum's constants.
@@ -434,7 +435,11 @@ mod tests {
     fn a_dyadic_frustum_has_a_lattice() -> Result<(), FrustumError> {
         let frustum = perspective()?;
         let filter = frustum.filter();
-        let on = |v: [f64; 3]| filter.is_lattice(v.into(), filter.values(v.into()).size);
+        let on = |v: [f64; 3]| {
+            let p = Vec3::from(v);
+            let values = filter.values(p);
+            filter.on_lattice(&Segment::new(p, p), &values, &values)
+        };
         assert!(on([0.5, 0.25, 3.125]) && on([40.0, -13.0, 0.0]));
         assert!(!on([0.1, 0.25, 3.125]) && !on([1e9, 0.0, 0.0]) && !on([f64::NAN, 0.0, 0.0]));
         Ok(())

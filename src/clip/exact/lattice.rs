@@ -9,20 +9,24 @@
 //! Grid-aligned models against grid-aligned boxes are all of this kind.
 
 use super::pair;
+use crate::clip::plain::outside;
 use crate::clip::{Class, SegmentClip};
 use crate::frustum::FaceSet;
 use crate::frustum::filter::{Filter, Values};
 use crate::math::{Real, Segment};
 use wide::f64x2;
 
-/// Clips a segment with exact values.
+/// Clips a segment, if it is on the lattice.
 #[inline(never)]
 pub(super) fn clip<T: Real>(
     filter: &Filter,
     segment: &Segment<T>,
     p: &Values,
     q: &Values,
-) -> SegmentClip<T> {
+) -> Option<SegmentClip<T>> {
+    if !filter.on_lattice(&segment.to_f64(), p, q) {
+        return None;
+    }
     let all = f64x2::splat;
     let zero = all(0.0);
     let (a, b) = (&p.pairs, &q.pairs);
@@ -33,7 +37,7 @@ pub(super) fn clip<T: Real>(
         .simd_lt(zero)
         .any()
     {
-        return SegmentClip::OUTSIDE;
+        return Some(outside());
     }
     let (mut enter, mut leave) = ([zero; 3], [zero; 3]);
     for i in 0..3 {
@@ -57,7 +61,7 @@ pub(super) fn clip<T: Real>(
     let t0 = if e > f { e } else { f };
     let t1 = if l < m { l } else { m };
     if t0 > t1 {
-        return SegmentClip::OUTSIDE;
+        return Some(outside());
     }
     let at = [t0, t1];
     let on = |i: usize| a[i].simd_eq(zero) & b[i].simd_eq(zero);
@@ -74,17 +78,13 @@ pub(super) fn clip<T: Real>(
         set([left(0), left(1), left(2)]),
     ];
     let coplanar = set([on(0), on(1), on(2)]);
-    finish(
-        filter,
-        segment,
-        [p, q],
-        &Found {
-            at,
-            faces,
-            coplanar,
-            clipped,
-        },
-    )
+    let found = Found {
+        at,
+        faces,
+        coplanar,
+        clipped,
+    };
+    Some(finish(filter, segment, [p, q], &found))
 }
 
 /// The faces whose lanes are set.

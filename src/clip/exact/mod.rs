@@ -23,6 +23,7 @@ pub(crate) use staged::Staged;
 use decide::Decision;
 use points::build;
 
+use super::plain::outside;
 use super::predicates::{Predicates, Span};
 use super::{Accuracy, SegmentClip, StageCounts};
 use crate::frustum::Frustum;
@@ -45,7 +46,7 @@ pub(crate) fn clip<T: Real>(
         span(&mut staged).map(|span| Decision::new(&mut staged, span))
     };
     let result = match decision {
-        None => SegmentClip::OUTSIDE,
+        None => outside(),
         Some(decision) => build(&mut staged, segment, &decision, accuracy),
     };
     staged.add_to(counts);

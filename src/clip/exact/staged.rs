@@ -48,8 +48,7 @@ impl<'a> Staged<'a> {
     pub(crate) fn new(frustum: &'a Frustum, segment: Segment<f64>) -> Self {
         let filter = frustum.filter();
         let values = [filter.values(segment.start), filter.values(segment.end)];
-        let lattice = filter.is_lattice(segment.start, values[0].size)
-            && filter.is_lattice(segment.end, values[1].size);
+        let lattice = filter.on_lattice(&segment, &values[0], &values[1]);
         Staged::with(frustum, segment, values, lattice)
     }
 

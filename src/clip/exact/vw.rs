@@ -23,6 +23,7 @@
 use super::decide::{At, Decision};
 use super::staged::Staged;
 use super::{lattice, pair, points};
+use crate::clip::plain::outside;
 use crate::clip::predicates::{Predicates, Span};
 use crate::clip::{Accuracy, Class, SegmentClip, StageCounts};
 use crate::frustum::filter::{FLOOR, Filter, Values};
@@ -64,11 +65,14 @@ fn clip_in<T: Real, L: Layout>(
     let wide = segment.to_f64();
     let p = filter.values_in::<L>(wide.start);
     let q = filter.values_in::<L>(wide.end);
-    if accuracy == Accuracy::Fast && filter.on_lattice(&wide, &p, &q) {
-        return Ok(lattice::clip(filter, segment, &p, &q));
+    if filter.may_be_lattice(wide.start)
+        && accuracy == Accuracy::Fast
+        && let Some(result) = lattice::clip(filter, segment, &p, &q)
+    {
+        return Ok(result);
     }
     match triage(filter, &p, &q) {
-        Triage::Outside => Ok(SegmentClip::OUTSIDE),
+        Triage::Outside => Ok(outside()),
         Triage::Inside => Ok(pair::inside(segment)),
         Triage::Crossing => cross(frustum, segment, accuracy, counts, &p, &q),
         Triage::Unsure => super::clip(frustum, segment, accuracy, counts, |s| span(s)),
@@ -89,7 +93,7 @@ fn cross<T: Real>(
     let filter = frustum.filter();
     let thresholds = thresholds(filter, p.size + q.size);
     match certify(&p.pairs, &q.pairs, thresholds) {
-        Certificate::Outside => return Ok(SegmentClip::OUTSIDE),
+        Certificate::Outside => return Ok(outside()),
         Certificate::Cross(crossing) if accuracy == Accuracy::Fast => {
             return Ok(fast(filter, &segment.to_f64(), &crossing));
         }
