@@ -105,49 +105,66 @@ impl Values {
 }
 
 impl Filter {
-    /// The values at a point, in the fixed order of operations that the error
-    /// bound is for.
-    #[inline(always)]
+    /// The values at a point.
     pub(crate) fn values(&self, p: Vec3<f64>) -> Values {
+        self.values_of(&Segment::new(p, p))[0]
+    }
+
+    /// The values at both ends of a segment.
+    pub(crate) fn values_of(&self, segment: &Segment<f64>) -> [Values; 2] {
         if matches!(self.form, Form::Infinite | Form::InfiniteSymmetric) {
-            self.values_in::<General<false>>(p)
+            self.values_in::<General<false>>(segment)
         } else {
-            self.values_in::<General<true>>(p)
+            self.values_in::<General<true>>(segment)
         }
     }
 
-    /// The same bits, with what the layout can leave out left out.
+    /// The same bits, with what the layout can leave out left out, in the fixed
+    /// order of operations that the error bound is for.
     #[inline(always)]
-    pub(crate) fn values_in<L: Layout>(&self, p: Vec3<f64>) -> Values {
-        let (q, size) = self.frame(p);
-        let depth = self.sigma * (q.z - self.near);
+    pub(crate) fn values_in<L: Layout>(&self, segment: &Segment<f64>) -> [Values; 2] {
+        let all = f64x2::splat;
+        let (q, size) = self.frame(segment);
+        let sigma = all(self.sigma);
+        let depth = sigma * (q.z - all(self.near));
         let far = if L::FAR {
-            self.sigma * (self.far - q.z)
+            sigma * (all(self.far) - q.z)
         } else {
-            NO_FAR
+            all(NO_FAR)
         };
-        let [left, right] = L::sides(&self.at_near, &self.slope, 0, depth, q.x);
-        let [bottom, top] = L::sides(&self.at_near, &self.slope, 2, depth, q.y);
-        Values {
-            pairs: [
-                f64x2::new([depth, far]),
-                f64x2::new([left, right]),
-                f64x2::new([bottom, top]),
-            ],
-            size,
-        }
+        let each = |v: &[f64; 4]| [all(v[0]), all(v[1]), all(v[2]), all(v[3])];
+        let (bounds, slopes) = (each(&self.at_near), each(&self.slope));
+        let ends = f64x2::transpose([depth, far]);
+        let sides = f64x2::transpose(L::sides(&bounds, &slopes, 0, depth, q.x));
+        let levels = f64x2::transpose(L::sides(&bounds, &slopes, 2, depth, q.y));
+        let size = size.to_array();
+        let values = |i: usize| Values {
+            pairs: [ends[i], sides[i], levels[i]],
+            size: size[i],
+        };
+        [values(0), values(1)]
     }
 
-    /// Rounded frame coordinates, and S.
+    /// Rounded frame coordinates of both ends, and S.
     #[inline(always)]
-    fn frame(&self, p: Vec3<f64>) -> (Vec3<f64>, f64) {
-        let size = |v: Vec3<f64>| v.x.abs() + v.y.abs() + v.z.abs();
+    fn frame(&self, Segment { start, end }: &Segment<f64>) -> (Vec3<f64x2>, f64x2) {
+        let p = Vec3::new(
+            f64x2::new([start.x, end.x]),
+            f64x2::new([start.y, end.y]),
+            f64x2::new([start.z, end.z]),
+        );
+        let size = |v: Vec3<f64x2>| v.x.abs() + v.y.abs() + v.z.abs();
         if self.identity {
             return (p, size(p));
         }
-        let c = p - self.origin;
-        let [x, y, z] = self.axes;
-        (Vec3::new(x.dot(c), y.dot(c), z.dot(c)), size(c))
+        let all = f64x2::splat;
+        let o = self.origin;
+        let c = Vec3::new(p.x - all(o.x), p.y - all(o.y), p.z - all(o.z));
+        let dot = |k: usize| {
+            let a = self.axes[k];
+            all(a.x) * c.x + all(a.y) * c.y + all(a.z) * c.z
+        };
+        (Vec3::new(dot(0), dot(1), dot(2)), size(c))
     }
 
     /// Whether the bound holds for points of this size. False for NaN.

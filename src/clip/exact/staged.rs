@@ -47,7 +47,7 @@ const TINY: f64 = 1e-300;
 impl<'a> Staged<'a> {
     pub(crate) fn new(frustum: &'a Frustum, segment: Segment<f64>) -> Self {
         let filter = frustum.filter();
-        let values = [filter.values(segment.start), filter.values(segment.end)];
+        let values = filter.values_of(&segment);
         let lattice = filter.on_lattice(&segment, &values[0], &values[1]);
         Staged::with(frustum, segment, values, lattice)
     }

@@ -63,8 +63,7 @@ fn clip_in<T: Real, L: Layout>(
 ) -> Result<SegmentClip<T>, NonFinite> {
     let filter = frustum.filter();
     let wide = segment.to_f64();
-    let p = filter.values_in::<L>(wide.start);
-    let q = filter.values_in::<L>(wide.end);
+    let [p, q] = filter.values_in::<L>(&wide);
     if filter.may_be_lattice(wide.start)
         && accuracy == Accuracy::Fast
         && let Some(result) = lattice::clip(filter, segment, &p, &q)
