@@ -275,8 +275,9 @@ impl Filter {
             identity,
             form: Form::of(shape),
             sigma,
-            near: near.z,
-            far: far.map_or(near.z, |far| far.z),
+            // Never minus zero: a hit takes its coordinate from here.
+            near: near.z + 0.0,
+            far: far.map_or(near.z, |far| far.z) + 0.0,
             at_near: near.rect.to_array(),
             slope: slopes.map(|s| s.hi),
             origin: pose.origin,
@@ -354,6 +355,10 @@ impl Filter {
         let smallest_axis = sizes.into_iter().fold(f64::INFINITY, f64::min);
         let reach = (largest / smallest_axis)
             .max(self.origin.to_array().iter().map(fixed).fold(0.0, f64::max));
+        if reach == 0.0 {
+            // An infinite pyramid from the world's origin has no size.
+            return None;
+        }
         let limit = exp2((8.0 * reach).log2().ceil() as i32);
         let size = factor * limit + 2.0 * largest * (1.0 + slope_size);
         let top = size.log2().ceil() as i32;

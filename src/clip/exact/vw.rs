@@ -99,7 +99,9 @@ fn cross<T: Real>(
         Certificate::Cross(crossing) => {
             let mut staged = Staged::with(frustum, segment.to_f64(), [*p, *q], false);
             let decision = crossing.decision();
-            return Ok(points::build(&mut staged, segment, &decision, accuracy));
+            let result = points::build(&mut staged, segment, &decision, accuracy);
+            staged.add_to(counts);
+            return Ok(result);
         }
         Certificate::None => {}
     }
