@@ -35,7 +35,7 @@ use super::precise::Precise;
 use super::{Face, Form, Frustum, General, Layout, Shape};
 use crate::exact::double_double::Dd;
 use crate::exact::expansion::in_safe_range;
-use crate::exact::float::{exp2, lowest_bit, two_diff, two_prod};
+use crate::exact::float::{exp2, exponent_above, lowest_bit, two_diff, two_prod};
 use crate::math::{Pose, Segment, Vec3};
 use std::cmp::Ordering;
 use wide::f64x2;
@@ -47,7 +47,7 @@ const RELATIVE: f64 = 1.4210854715202004e-14;
 pub(crate) const PRECISE: f64 = 1.1102230246251565e-16;
 /// 2^-500: far above what underflow can do inside [`in_range`], far below
 /// every scale.
-pub(crate) const FLOOR: f64 = 3.0549363634996047e-151;
+pub(crate) const FLOOR: f64 = 3.054_936_363_499_605e-151;
 /// Stands for the far value of an infinite frustum: never crossed.
 pub(crate) const NO_FAR: f64 = 1e300;
 
@@ -227,13 +227,11 @@ impl Filter {
         }
         let value = self.precise.value(face as usize, p).hi;
         let certain = value.abs() > PRECISE * self.threshold(face, values.size);
-        certain.then(|| {
-            if value > 0.0 {
-                Ordering::Greater
-            } else {
-                Ordering::Less
-            }
-        })
+        if certain {
+            value.partial_cmp(&0.0)
+        } else {
+            None
+        }
     }
 
     /// Whether all values at both ends, and quotients of two of them, are in exact
@@ -359,9 +357,9 @@ impl Filter {
             // An infinite pyramid from the world's origin has no size.
             return None;
         }
-        let limit = exp2((8.0 * reach).log2().ceil() as i32);
+        let limit = exp2(exponent_above(4.0 * reach));
         let size = factor * limit + 2.0 * largest * (1.0 + slope_size);
-        let top = size.log2().ceil() as i32;
+        let top = exponent_above(size);
 
         let least = |v: &mut dyn Iterator<Item = f64>| v.filter_map(lowest_bit).min();
         let axes = least(&mut self.axes.iter().flat_map(|a| a.to_array()))?;
@@ -371,7 +369,7 @@ impl Filter {
         // lowest bit of a value = min(unit + axes, constants) + slopes >= top - 25
         let unit = top - 25 - slopes - axes;
         let coarsest = constants.min(origin.map_or(constants, |o| o + axes));
-        if coarsest + slopes < top - 25 || unit > 400 || unit < -500 {
+        if coarsest + slopes < top - 25 || !(-500..=400).contains(&unit) {
             return None;
         }
         Some(Lattice {
