@@ -3,7 +3,7 @@
 mod verify;
 mod verify_table;
 
-pub use verify::{ExactClipper, FamilyRow, Options, Subject, Witness, verify};
+pub use verify::{ExactClipper, FamilyRow, Options, Subject, Witness, verify, verify_watched};
 pub use verify_table::VerifyTable;
 
 #[cfg(test)]
