@@ -24,6 +24,9 @@ struct Row {
     high: f64,
     low: f64,
     rest: f64,
+    /// All bits set where a point on the face has exactly `at` for its `z`:
+    /// near and far of the identity pose.
+    level: f64,
 }
 
 /// The six faces, in the order of [`super::Face::ALL`].
@@ -52,6 +55,11 @@ impl Precise {
                 high,
                 low,
                 rest: sigma * slope.lo,
+                level: f64::from_bits(if axis == 2 && pose.is_identity() {
+                    u64::MAX
+                } else {
+                    0
+                }),
             }
         };
         let side = |i: usize| row(i / 2, bounds[i], slopes[i]);
@@ -77,7 +85,7 @@ impl Precise {
     /// the truth.
     #[inline(always)]
     pub(crate) fn values(&self, faces: [usize; 2], p: Vec3<f64>) -> (f64x2, f64x2) {
-        let [a, b] = faces.map(|face| &self.rows[face]);
+        let (a, b) = (&self.rows[faces[0]], &self.rows[faces[1]]);
         let all = f64x2::splat;
         let ((z, z_low), (c, c_low)) = match &self.pose {
             None => {
@@ -112,6 +120,13 @@ impl Precise {
         }
     }
 
+    /// `z`, but what near or far says of it for points that are on them.
+    #[inline(always)]
+    pub(crate) fn exact_depth(&self, faces: [usize; 2], z: f64x2) -> f64x2 {
+        let (a, b) = (&self.rows[faces[0]], &self.rows[faces[1]]);
+        f64x2::new([a.level, b.level]).bitselect(f64x2::new([a.at, b.at]), z)
+    }
+
     /// The same two values' magnitudes, rounded: relative error below u (1 + 1/2)
     /// where the filter is certain.
     #[inline(always)]
@@ -124,7 +139,7 @@ impl Precise {
 /// Two frame coordinates of a point, each as a rounded value and a rest.
 #[inline(always)]
 fn coordinate(pose: &Pose, axes: [usize; 2], p: Vec3<f64>) -> (f64x2, f64x2) {
-    let [a, b] = axes.map(|k| pose.axes[k]);
+    let (a, b) = (pose.axes[axes[0]], pose.axes[axes[1]]);
     let o = pose.origin;
     let term = |p: f64, o: f64, a: f64, b: f64| {
         let axis = f64x2::new([a, b]);

@@ -153,15 +153,7 @@ fn step(staged: &mut Staged<'_>, face: Face) -> Step {
         let [p, q] = [0, 1].map(|i| staged.values[i].g[face as usize].abs());
         return Step::new(p, q, &staged.segment);
     }
-    // Near and far of the identity pose are exact up to one rounding, unless
-    // they overflow.
-    let depth = matches!(face, Face::Near | Face::Far)
-        && staged.filter().identity
-        && staged
-            .values
-            .iter()
-            .all(|v| v.g[face as usize].abs() < f64::MAX / 4.0);
-    if depth || staged.certain(face) {
+    if staged.certain(face) {
         let Segment { start, end } = staged.segment;
         let value = |p| {
             staged
@@ -171,6 +163,13 @@ fn step(staged: &mut Staged<'_>, face: Face) -> Step {
                 .to_array()[0]
         };
         return Step::new(value(start), value(end), &staged.segment);
+    }
+    // Near and far of the identity pose are one subtraction, the same bits as
+    // in double-double, unless they overflow.
+    let [p, q] = [0, 1].map(|i| staged.values[i].g[face as usize].abs());
+    let depth = matches!(face, Face::Near | Face::Far) && staged.filter().identity;
+    if depth && p + q < f64::MAX {
+        return Step::new(p, q, &staged.segment);
     }
     exact_step(staged, face)
 }
@@ -221,6 +220,8 @@ pub(super) fn place<T: Real>(
     if !(point.x + point.y + point.z).is_finite() {
         point = huge(segment, base, tau);
     }
+    // The sign of a zero must not depend on the order of the ends.
+    point = point + Vec3::default();
     if filter.identity {
         // The exact hit has exactly this coordinate.
         if faces.contains(Face::Near) {
@@ -277,7 +278,7 @@ fn nearest_double_double<T: Real>(staged: &Staged<'_>, face: Face) -> Option<(T,
     };
     let coordinate = |k: usize| {
         if from[k] == to[k] {
-            return Some(T::from_f64(from[k]));
+            return Some(T::from_f64(from[k] + 0.0));
         }
         let d = Dd::difference(to[k], from[k]);
         let v = Dd::new(from[k], 0.0).add(tau.mul(d));

@@ -215,10 +215,12 @@ fn triage(filter: &Filter, p: &Values, q: &Values) -> Triage {
         return Triage::Outside;
     }
     let beyond = |v: [f64x2; 3]| (v[0].simd_gt(depth) & v[1].fast_min(v[2]).simd_gt(side)).all();
-    if beyond([0, 1, 2].map(|i| a[i].fast_min(b[i]))) {
+    let lesser = |i: usize| a[i].fast_min(b[i]);
+    if beyond([lesser(0), lesser(1), lesser(2)]) {
         return Triage::Inside;
     }
-    if beyond([0, 1, 2].map(|i| a[i].abs().fast_min(b[i].abs()))) {
+    let nearer = |i: usize| a[i].abs().fast_min(b[i].abs());
+    if beyond([nearer(0), nearer(1), nearer(2)]) {
         Triage::Crossing
     } else {
         Triage::Unsure
@@ -238,15 +240,17 @@ enum Certificate {
 /// number stands for nothing.
 struct Crossing {
     faces: [usize; 2],
-    clipped: [bool; 2],
+    /// All bits set or none.
+    clipped: f64x2,
 }
 
 impl Crossing {
     /// The decision: nothing is on a face, and there are no ties.
     fn decision(&self) -> Decision {
+        let clipped = self.clipped();
         let end = |i: usize, own| {
             let face = Face::ALL[self.faces[i]];
-            if self.clipped[i] {
+            if clipped[i] {
                 (At::Crossing(face), FaceSet::from(face))
             } else {
                 (At::End(own), FaceSet::EMPTY)
@@ -256,10 +260,16 @@ impl Crossing {
         Decision {
             class: Class::Cross,
             at: [entry.0, exit.0],
-            clipped: self.clipped,
+            clipped,
             faces: [entry.1, exit.1],
             coplanar: FaceSet::EMPTY,
         }
+    }
+
+    #[inline(always)]
+    fn clipped(&self) -> [bool; 2] {
+        let bits = self.clipped.to_bitmask();
+        [bits & 1 != 0, bits & 2 != 0]
     }
 }
 
@@ -288,7 +298,10 @@ fn certify(a: &[f64x2; 3], b: &[f64x2; 3], (depth, side): (f64, f64)) -> Certifi
     // that are not crossed stand where they change nothing.
     let (mut enter, mut leave, mut scales) = ([all(0.0); 3], [all(0.0); 3], [all(0.0); 3]);
     for i in 0..3 {
-        let number = [2 * i as u64, 2 * i as u64 + 1].map(f64::from_bits);
+        let number = [
+            f64::from_bits(2 * i as u64),
+            f64::from_bits(2 * i as u64 + 1),
+        ];
         let scale = all(1.0) / (a[i] - b[i]);
         let t = a[i] * scale;
         let (entering, leaving) = (a[i].simd_lt(all(0.0)), b[i].simd_lt(all(0.0)));
@@ -309,14 +322,19 @@ fn certify(a: &[f64x2; 3], b: &[f64x2; 3], (depth, side): (f64, f64)) -> Certifi
     let uncrossed = first.simd_lt(f64x2::new([-0.5, -1.5]));
     let single = (second + all(error)).simd_lt(first) | uncrossed;
     if single.all() & (overlap < -error) {
-        let clipped = !uncrossed.to_bitmask();
         Certificate::Cross(Crossing {
-            faces: [last_enter, minus_first_leave].map(|v| (v.to_bits() & 7) as usize),
-            clipped: [clipped & 1 != 0, clipped & 2 != 0],
+            faces: [number(last_enter), number(minus_first_leave)],
+            clipped: !uncrossed,
         })
     } else {
         Certificate::None
     }
+}
+
+/// The face's number in a parameter's last bits.
+#[inline(always)]
+fn number(t: f64) -> usize {
+    (t.to_bits() & 7) as usize
 }
 
 /// Constructs both ends of a certain crossing side by side, by the rule of
@@ -338,34 +356,31 @@ fn fast<T: Real>(
     let tau = a.fast_min(b) / (a + b);
     let t = from_end.bitselect(all(1.0) - tau, tau);
     let signed = from_end.bitselect(-tau, tau);
-    let place = |p: f64, q: f64| {
-        let point = from_end.bitselect(all(q), all(p)) + signed * all(q - p);
-        point.to_array().map(T::from_f64)
+    // Adding zero: the sign of a zero must not depend on the order of the ends.
+    let crossed =
+        |p: f64, q: f64| from_end.bitselect(all(q), all(p)) + signed * all(q - p) + all(0.0);
+    let clipped = crossing.clipped;
+    let select = |v: f64x2, p: f64, q: f64| {
+        let ends = clipped.bitselect(v, f64x2::new([p, q]));
+        let [a, b] = ends.to_array();
+        [T::from_f64(a), T::from_f64(b)]
     };
-    let (x, y) = (place(start.x, end.x), place(start.y, end.y));
-    let z = place(start.z, end.z);
-    let t = t.to_array().map(T::from_f64);
-    let own = [(T::ZERO, segment.start), (T::ONE, segment.end)];
-    let finish = |i: usize| {
-        let clipped = crossing.clipped[i];
-        let face = crossing.faces[i];
-        let z = if filter.identity && face < 2 {
-            T::from_f64([filter.near, filter.far][face])
-        } else {
-            z[i]
-        };
-        let (t, point) = if clipped {
-            (t[i], Vec3::new(x[i], y[i], z))
-        } else {
-            own[i]
-        };
-        PartEnd {
-            t,
-            point,
-            clipped,
-            faces: FaceSet::from_bits(u8::from(clipped) << face),
-            inward: !clipped,
-        }
+    let x = select(crossed(start.x, end.x), start.x, end.x);
+    let y = select(crossed(start.y, end.y), start.y, end.y);
+    let z = crossed(start.z, end.z);
+    let z = select(
+        filter.precise.exact_depth(crossing.faces, z),
+        start.z,
+        end.z,
+    );
+    let t = select(t, 0.0, 1.0);
+    let clipped = crossing.clipped();
+    let finish = |i: usize| PartEnd {
+        t: t[i],
+        point: Vec3::new(x[i], y[i], z[i]),
+        clipped: clipped[i],
+        faces: FaceSet::from_bits(u8::from(clipped[i]) << crossing.faces[i]),
+        inward: !clipped[i],
     };
     let entry = finish(0);
     let mut exit = finish(1);
