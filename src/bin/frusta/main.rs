@@ -8,6 +8,7 @@ mod input;
 mod number;
 mod output;
 mod pipeline;
+mod report;
 mod stats;
 mod terminal;
 mod verify;
@@ -27,6 +28,7 @@ struct Cli {
 #[derive(Subcommand)]
 enum Command {
     Clip(clip::ClipArgs),
+    Report(report::ReportArgs),
     Verify(verify::VerifyArgs),
 }
 
@@ -51,6 +53,7 @@ pub(crate) fn cores() -> usize {
 fn main() -> ExitCode {
     let result = match Cli::parse().command {
         Command::Clip(args) => clip::run(&args).map(|()| ExitCode::SUCCESS),
+        Command::Report(args) => report::run(&args),
         Command::Verify(args) => verify::run(&args),
     };
     match result {
