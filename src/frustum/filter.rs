@@ -36,8 +36,9 @@ use super::{Face, Form, Frustum, General, Layout, Shape};
 use crate::exact::double_double::Dd;
 use crate::exact::expansion::in_safe_range;
 use crate::exact::float::{exp2, lowest_bit, two_diff, two_prod};
-use crate::math::{Pose, Vec3};
+use crate::math::{Pose, Segment, Vec3};
 use std::cmp::Ordering;
+use wide::f64x2;
 
 /// 2^-46.
 const RELATIVE: f64 = 1.4210854715202004e-14;
@@ -89,52 +90,81 @@ struct Lattice {
 /// The six boundary values at a point, rounded.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Values {
-    /// In the order of [`Face::ALL`].
-    pub(crate) g: [f64; 6],
+    /// (near, far), (left, right), (bottom, top).
+    pub(crate) pairs: [f64x2; 3],
     /// S, the size of the point as the bound sees it.
     pub(crate) size: f64,
 }
 
+impl Values {
+    /// A face's value, by number in the order of [`Face::ALL`].
+    #[inline(always)]
+    pub(crate) fn of(&self, face: usize) -> f64 {
+        self.pairs[face / 2].to_array()[face % 2]
+    }
+}
+
 impl Filter {
-    /// The values at a point, in the fixed order of operations that the error
-    /// bound is for.
-    #[inline(always)]
+    /// The values at a point.
     pub(crate) fn values(&self, p: Vec3<f64>) -> Values {
+        self.values_of(&Segment::new(p, p))[0]
+    }
+
+    /// The values at both ends of a segment.
+    pub(crate) fn values_of(&self, segment: &Segment<f64>) -> [Values; 2] {
         if matches!(self.form, Form::Infinite | Form::InfiniteSymmetric) {
-            self.values_in::<General<false>>(p)
+            self.values_in::<General<false>>(segment)
         } else {
-            self.values_in::<General<true>>(p)
+            self.values_in::<General<true>>(segment)
         }
     }
 
-    /// The same bits, with what the layout can leave out left out.
+    /// The same bits, with what the layout can leave out left out, in the fixed
+    /// order of operations that the error bound is for.
     #[inline(always)]
-    pub(crate) fn values_in<L: Layout>(&self, p: Vec3<f64>) -> Values {
-        let (q, size) = self.frame(p);
-        let depth = self.sigma * (q.z - self.near);
+    pub(crate) fn values_in<L: Layout>(&self, segment: &Segment<f64>) -> [Values; 2] {
+        let all = f64x2::splat;
+        let (q, size) = self.frame(segment);
+        let sigma = all(self.sigma);
+        let depth = sigma * (q.z - all(self.near));
         let far = if L::FAR {
-            self.sigma * (self.far - q.z)
+            sigma * (all(self.far) - q.z)
         } else {
-            NO_FAR
+            all(NO_FAR)
         };
-        let [left, right] = L::sides(&self.at_near, &self.slope, 0, depth, q.x);
-        let [bottom, top] = L::sides(&self.at_near, &self.slope, 2, depth, q.y);
-        Values {
-            g: [depth, far, left, right, bottom, top],
-            size,
-        }
+        let each = |v: &[f64; 4]| [all(v[0]), all(v[1]), all(v[2]), all(v[3])];
+        let (bounds, slopes) = (each(&self.at_near), each(&self.slope));
+        let ends = f64x2::transpose([depth, far]);
+        let sides = f64x2::transpose(L::sides(&bounds, &slopes, 0, depth, q.x));
+        let levels = f64x2::transpose(L::sides(&bounds, &slopes, 2, depth, q.y));
+        let size = size.to_array();
+        let values = |i: usize| Values {
+            pairs: [ends[i], sides[i], levels[i]],
+            size: size[i],
+        };
+        [values(0), values(1)]
     }
 
-    /// Rounded frame coordinates, and S.
+    /// Rounded frame coordinates of both ends, and S.
     #[inline(always)]
-    fn frame(&self, p: Vec3<f64>) -> (Vec3<f64>, f64) {
-        let size = |v: Vec3<f64>| v.x.abs() + v.y.abs() + v.z.abs();
+    fn frame(&self, Segment { start, end }: &Segment<f64>) -> (Vec3<f64x2>, f64x2) {
+        let p = Vec3::new(
+            f64x2::new([start.x, end.x]),
+            f64x2::new([start.y, end.y]),
+            f64x2::new([start.z, end.z]),
+        );
+        let size = |v: Vec3<f64x2>| v.x.abs() + v.y.abs() + v.z.abs();
         if self.identity {
             return (p, size(p));
         }
-        let c = p - self.origin;
-        let [x, y, z] = self.axes;
-        (Vec3::new(x.dot(c), y.dot(c), z.dot(c)), size(c))
+        let all = f64x2::splat;
+        let o = self.origin;
+        let c = Vec3::new(p.x - all(o.x), p.y - all(o.y), p.z - all(o.z));
+        let dot = |k: usize| {
+            let a = self.axes[k];
+            all(a.x) * c.x + all(a.y) * c.y + all(a.z) * c.z
+        };
+        (Vec3::new(dot(0), dot(1), dot(2)), size(c))
     }
 
     /// Whether the bound holds for points of this size. False for NaN.
@@ -168,7 +198,7 @@ impl Filter {
     /// the identity pose the difference of two doubles has the exact sign.
     #[inline(always)]
     pub(crate) fn sign(&self, face: Face, values: &Values) -> Option<Ordering> {
-        let g = values.g[face as usize];
+        let g = values.of(face as usize);
         if !self.covers(values.size) {
             return None;
         }
@@ -206,15 +236,32 @@ impl Filter {
         })
     }
 
-    /// Whether all values at this point, and products of two of them, are free
-    /// of rounding errors.
+    /// Whether all values at both ends, and quotients of two of them, are in exact
+    /// order: see [`Lattice`].
     #[inline(always)]
-    pub(crate) fn is_lattice(&self, p: Vec3<f64>, size: f64) -> bool {
+    pub(crate) fn on_lattice(&self, segment: &Segment<f64>, p: &Values, q: &Values) -> bool {
         let Some(lattice) = self.lattice else {
             return false;
         };
-        let on = |v: f64| (v + lattice.round) - lattice.round == v;
-        size < lattice.limit && on(p.x) && on(p.y) && on(p.z)
+        let round = f64x2::splat(lattice.round);
+        let on = |p: f64, q: f64| {
+            let v = f64x2::new([p, q]);
+            ((v + round) - round).simd_eq(v)
+        };
+        let Segment { start, end } = segment;
+        let all = on(start.x, end.x) & on(start.y, end.y) & on(start.z, end.z);
+        all.all() & (p.size < lattice.limit) & (q.size < lattice.limit)
+    }
+
+    /// False for nearly all points that are not on the lattice; cheap.
+    #[inline(always)]
+    pub(crate) fn may_be_lattice(&self, p: Vec3<f64>) -> bool {
+        let Some(lattice) = self.lattice else {
+            return false;
+        };
+        let round = f64x2::splat(lattice.round);
+        let v = f64x2::new([p.x, p.y]);
+        ((v + round) - round).simd_eq(v).all()
     }
 
     /// Prepares a valid frustum's constants.
@@ -228,8 +275,9 @@ impl Filter {
             identity,
             form: Form::of(shape),
             sigma,
-            near: near.z,
-            far: far.map_or(near.z, |far| far.z),
+            // Never minus zero: a hit takes its coordinate from here.
+            near: near.z + 0.0,
+            far: far.map_or(near.z, |far| far.z) + 0.0,
             at_near: near.rect.to_array(),
             slope: slopes.map(|s| s.hi),
             origin: pose.origin,
@@ -307,6 +355,10 @@ impl Filter {
         let smallest_axis = sizes.into_iter().fold(f64::INFINITY, f64::min);
         let reach = (largest / smallest_axis)
             .max(self.origin.to_array().iter().map(fixed).fold(0.0, f64::max));
+        if reach == 0.0 {
+            // An infinite pyramid from the world's origin has no size.
+            return None;
+        }
         let limit = exp2((8.0 * reach).log2().ceil() as i32);
         let size = factor * limit + 2.0 * largest * (1.0 + slope_size);
         let top = size.log2().ceil() as i32;
@@ -405,7 +457,11 @@ mod tests {
     fn a_dyadic_frustum_has_a_lattice() -> Result<(), FrustumError> {
         let frustum = perspective()?;
         let filter = frustum.filter();
-        let on = |v: [f64; 3]| filter.is_lattice(v.into(), filter.values(v.into()).size);
+        let on = |v: [f64; 3]| {
+            let p = Vec3::from(v);
+            let values = filter.values(p);
+            filter.on_lattice(&Segment::new(p, p), &values, &values)
+        };
         assert!(on([0.5, 0.25, 3.125]) && on([40.0, -13.0, 0.0]));
         assert!(!on([0.1, 0.25, 3.125]) && !on([1e9, 0.0, 0.0]) && !on([f64::NAN, 0.0, 0.0]));
         Ok(())
@@ -446,7 +502,7 @@ mod tests {
                 for face in Face::ALL {
                     let exact: Dyadic = boundary(frustum, face, p).expect("integers have room");
                     let t = filter.threshold(face, values.size);
-                    let g = values.g[face as usize];
+                    let g = values.of(face as usize);
                     if g.abs() > t {
                         let sign = g.partial_cmp(&0.0).unwrap_or(Ordering::Equal);
                         assert_eq!(exact.sign(), sign, "{face} at {p}");

@@ -20,6 +20,7 @@
 
 use super::{Face, Shape};
 use crate::math::{PerReal, Pose, Real, Vec3};
+use std::ops::{Add, Mul, Sub};
 
 /// Which of the cheaper evaluations a frustum allows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -254,6 +255,13 @@ impl PerReal for PlainPair {
     }
 }
 
+/// What the values are made of: scalars, or several side by side.
+pub(crate) trait Term:
+    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self>
+{
+}
+impl<T: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self>> Term for T {}
+
 /// How the values of two opposite sides are computed: each form of frustum
 /// leaves out what it does not need, and gives the same bits as the general
 /// one.
@@ -261,7 +269,7 @@ pub(crate) trait Layout {
     /// Whether there is a far face.
     const FAR: bool = true;
     /// The values of sides `i` and `i + 1` at depth `w`, coordinate `c`.
-    fn sides<T: Real>(bounds: &[T; 4], slopes: &[T; 4], i: usize, w: T, c: T) -> [T; 2];
+    fn sides<T: Term>(bounds: &[T; 4], slopes: &[T; 4], i: usize, w: T, c: T) -> [T; 2];
 }
 
 /// One half-width for two sides.
@@ -274,7 +282,7 @@ pub(crate) struct Orthographic;
 impl<const FAR: bool> Layout for Symmetric<FAR> {
     const FAR: bool = FAR;
     #[inline(always)]
-    fn sides<T: Real>(bounds: &[T; 4], slopes: &[T; 4], i: usize, w: T, c: T) -> [T; 2] {
+    fn sides<T: Term>(bounds: &[T; 4], slopes: &[T; 4], i: usize, w: T, c: T) -> [T; 2] {
         let u = bounds[i + 1] + slopes[i + 1] * w;
         [u + c, u - c]
     }
@@ -283,7 +291,7 @@ impl<const FAR: bool> Layout for Symmetric<FAR> {
 impl<const FAR: bool> Layout for General<FAR> {
     const FAR: bool = FAR;
     #[inline(always)]
-    fn sides<T: Real>(bounds: &[T; 4], slopes: &[T; 4], i: usize, w: T, c: T) -> [T; 2] {
+    fn sides<T: Term>(bounds: &[T; 4], slopes: &[T; 4], i: usize, w: T, c: T) -> [T; 2] {
         let low = bounds[i] + slopes[i] * w;
         let high = bounds[i + 1] + slopes[i + 1] * w;
         [c - low, high - c]
@@ -292,7 +300,7 @@ impl<const FAR: bool> Layout for General<FAR> {
 
 impl Layout for Orthographic {
     #[inline(always)]
-    fn sides<T: Real>(bounds: &[T; 4], _: &[T; 4], i: usize, _: T, c: T) -> [T; 2] {
+    fn sides<T: Term>(bounds: &[T; 4], _: &[T; 4], i: usize, _: T, c: T) -> [T; 2] {
         [c - bounds[i], bounds[i + 1] - c]
     }
 }

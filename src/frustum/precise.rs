@@ -32,7 +32,8 @@ struct Row {
 /// The six faces, in the order of [`super::Face::ALL`].
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Precise {
-    rows: [Row; 6],
+    /// Two more than there are, so that no bound is checked.
+    rows: [Row; 8],
     near: f64,
     /// What turns `c - at - m (z - z_near)` into the boundary value.
     signs: [f64; 6],
@@ -73,6 +74,8 @@ impl Precise {
                 side(1),
                 side(2),
                 side(3),
+                side(3),
+                side(3),
             ],
             near: near.z,
             signs: [sigma, -sigma, 1.0, -1.0, 1.0, -1.0],
@@ -85,28 +88,44 @@ impl Precise {
     /// the truth.
     #[inline(always)]
     pub(crate) fn values(&self, faces: [usize; 2], p: Vec3<f64>) -> (f64x2, f64x2) {
-        let (a, b) = (&self.rows[faces[0]], &self.rows[faces[1]]);
+        let (a, b) = self.rows(faces);
         let all = f64x2::splat;
-        let ((z, z_low), (c, c_low)) = match &self.pose {
+        match &self.pose {
             None => {
-                let c = p.to_array();
-                let zero = all(0.0);
-                ((all(p.z), zero), (f64x2::new([c[a.axis], c[b.axis]]), zero))
+                let c = [p.x, p.y, p.z, 0.0];
+                let c = f64x2::new([c[a.axis & 3], c[b.axis & 3]]);
+                self.combine::<true>(a, b, (all(p.z), all(0.0)), (c, all(0.0)))
             }
             Some(pose) => {
-                let third = coordinate(pose, [2, 2], p);
-                (third, coordinate(pose, [a.axis, b.axis], p))
+                let z = coordinate(pose, [2, 2], p);
+                self.combine::<false>(a, b, z, coordinate(pose, [a.axis, b.axis], p))
             }
-        };
-        let both = |of: fn(&Row) -> f64| f64x2::new([of(a), of(b)]);
-        let slope = both(|row| row.slope);
-        let halves = (both(|row| row.high), both(|row| row.low));
-        let (w, w_rest) = two_diff(z, all(self.near));
+        }
+    }
+
+    /// From frame coordinates z and c; EXACT where their rests are zero.
+    #[inline(always)]
+    fn combine<const EXACT: bool>(
+        &self,
+        a: &Row,
+        b: &Row,
+        (z, z_low): (f64x2, f64x2),
+        (c, c_low): (f64x2, f64x2),
+    ) -> (f64x2, f64x2) {
+        let with = |v: f64x2, low: f64x2| if EXACT { v } else { v + low };
+        let slope = f64x2::new([a.slope, b.slope]);
+        let halves = (f64x2::new([a.high, b.high]), f64x2::new([a.low, b.low]));
+        let (w, w_rest) = two_diff(z, f64x2::splat(self.near));
         let (product, low) = two_prod_split(slope, halves, w);
-        let low = low + (slope * (w_rest + z_low) + both(|row| row.rest) * w);
-        let (across, more) = two_diff(c, both(|row| row.at));
+        let low = low + (slope * with(w_rest, z_low) + f64x2::new([a.rest, b.rest]) * w);
+        let (across, more) = two_diff(c, f64x2::new([a.at, b.at]));
         let (g, rest) = two_diff(across, product);
-        (g, rest + ((more + c_low) - low))
+        (g, rest + (with(more, c_low) - low))
+    }
+
+    #[inline(always)]
+    fn rows(&self, faces: [usize; 2]) -> (&Row, &Row) {
+        (&self.rows[faces[0] & 7], &self.rows[faces[1] & 7])
     }
 
     /// One face's value with its sign, the high part rounded.
@@ -123,7 +142,7 @@ impl Precise {
     /// `z`, but what near or far says of it for points that are on them.
     #[inline(always)]
     pub(crate) fn exact_depth(&self, faces: [usize; 2], z: f64x2) -> f64x2 {
-        let (a, b) = (&self.rows[faces[0]], &self.rows[faces[1]]);
+        let (a, b) = self.rows(faces);
         f64x2::new([a.level, b.level]).bitselect(f64x2::new([a.at, b.at]), z)
     }
 

@@ -5,11 +5,15 @@
 //! decide    a span and the predicates give class, sets and where the ends are
 //! points    the ends' parameters and coordinates, to the accuracy asked for
 //! vw        V/W with certificates instead, where rounded values prove enough
+//! lattice   the same where floating point makes no error at all
+//! pair      both ends of a segment side by side
 //! inward    the representable point next to an end that is in the frustum
 //! ```
 
 mod decide;
 mod inward;
+mod lattice;
+mod pair;
 mod points;
 mod staged;
 pub(crate) mod vw;
@@ -19,6 +23,7 @@ pub(crate) use staged::Staged;
 use decide::Decision;
 use points::build;
 
+use super::plain::outside;
 use super::predicates::{Predicates, Span};
 use super::{Accuracy, SegmentClip, StageCounts};
 use crate::frustum::Frustum;
@@ -41,7 +46,7 @@ pub(crate) fn clip<T: Real>(
         span(&mut staged).map(|span| Decision::new(&mut staged, span))
     };
     let result = match decision {
-        None => SegmentClip::OUTSIDE,
+        None => outside(),
         Some(decision) => build(&mut staged, segment, &decision, accuracy),
     };
     staged.add_to(counts);

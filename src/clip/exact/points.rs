@@ -150,7 +150,7 @@ fn lesser(segment: &Segment<f64>) -> usize {
 /// filter is certain, else exact.
 fn step(staged: &mut Staged<'_>, face: Face) -> Step {
     if staged.lattice {
-        let [p, q] = [0, 1].map(|i| staged.values[i].g[face as usize].abs());
+        let [p, q] = [0, 1].map(|i| staged.values[i].of(face as usize).abs());
         return Step::new(p, q, &staged.segment);
     }
     if staged.certain(face) {
@@ -166,7 +166,7 @@ fn step(staged: &mut Staged<'_>, face: Face) -> Step {
     }
     // Near and far of the identity pose are one subtraction, the same bits as
     // in double-double, unless they overflow.
-    let [p, q] = [0, 1].map(|i| staged.values[i].g[face as usize].abs());
+    let [p, q] = [0, 1].map(|i| staged.values[i].of(face as usize).abs());
     let depth = matches!(face, Face::Near | Face::Far) && staged.filter().identity;
     if depth && p + q < f64::MAX {
         return Step::new(p, q, &staged.segment);

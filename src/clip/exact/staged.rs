@@ -47,9 +47,8 @@ const TINY: f64 = 1e-300;
 impl<'a> Staged<'a> {
     pub(crate) fn new(frustum: &'a Frustum, segment: Segment<f64>) -> Self {
         let filter = frustum.filter();
-        let values = [filter.values(segment.start), filter.values(segment.end)];
-        let lattice = filter.is_lattice(segment.start, values[0].size)
-            && filter.is_lattice(segment.end, values[1].size);
+        let values = filter.values_of(&segment);
+        let lattice = filter.on_lattice(&segment, &values[0], &values[1]);
         Staged::with(frustum, segment, values, lattice)
     }
 
@@ -95,7 +94,7 @@ impl<'a> Staged<'a> {
     pub(crate) fn certain(&self, face: Face) -> bool {
         let filter = self.filter();
         self.values.iter().all(|v| {
-            filter.covers(v.size) && v.g[face as usize].abs() > filter.threshold(face, v.size)
+            filter.covers(v.size) && v.of(face as usize).abs() > filter.threshold(face, v.size)
         })
     }
 
@@ -150,8 +149,8 @@ impl<'a> Staged<'a> {
     fn filtered_cross(&self, a: Face, b: Face) -> Option<Ordering> {
         let filter = self.filter();
         let [p, q] = &self.values;
-        let (pa, qa) = (p.g[a as usize], q.g[a as usize]);
-        let (pb, qb) = (p.g[b as usize], q.g[b as usize]);
+        let (pa, qa) = (p.of(a as usize), q.of(a as usize));
+        let (pb, qb) = (p.of(b as usize), q.of(b as usize));
         let cross = qa * pb - pa * qb;
         if self.lattice {
             return cross.partial_cmp(&0.0);
@@ -221,7 +220,7 @@ impl<'a> Staged<'a> {
     fn learn(&mut self, face: Face, end: End) {
         let values = self.values[end as usize];
         let sign = if self.lattice {
-            let g = values.g[face as usize];
+            let g = values.of(face as usize);
             g.partial_cmp(&0.0).unwrap_or(Ordering::Equal)
         } else {
             self.sign_at(face, self.point(end), &values)

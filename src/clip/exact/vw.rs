@@ -21,13 +21,14 @@
 //! threshold for e, which is 13 times what the values can be off, and 2^-48.
 
 use super::decide::{At, Decision};
-use super::points;
 use super::staged::Staged;
+use super::{lattice, pair, points};
+use crate::clip::plain::outside;
 use crate::clip::predicates::{Predicates, Span};
-use crate::clip::{Accuracy, Class, Part, PartEnd, SegmentClip, StageCounts, plain, vw};
+use crate::clip::{Accuracy, Class, SegmentClip, StageCounts};
 use crate::frustum::filter::{FLOOR, Filter, Values};
 use crate::frustum::{Face, FaceSet, Form, Frustum, General, Layout, Orthographic, Symmetric};
-use crate::math::{End, NonFinite, Real, Segment, Vec3};
+use crate::math::{End, NonFinite, Real, Segment};
 use std::cmp::Ordering;
 use wide::f64x2;
 
@@ -62,86 +63,24 @@ fn clip_in<T: Real, L: Layout>(
 ) -> Result<SegmentClip<T>, NonFinite> {
     let filter = frustum.filter();
     let wide = segment.to_f64();
-    let p = filter.values_in::<L>(wide.start);
-    let q = filter.values_in::<L>(wide.end);
+    let [p, q] = filter.values_in::<L>(&wide);
+    if filter.may_be_lattice(wide.start)
+        && accuracy == Accuracy::Fast
+        && let Some(result) = lattice::clip(filter, segment, &p, &q)
+    {
+        return Ok(result);
+    }
     match triage(filter, &p, &q) {
-        Triage::Outside => Ok(SegmentClip::OUTSIDE),
-        Triage::Inside => Ok(inside(segment)),
+        Triage::Outside => Ok(outside()),
+        Triage::Inside => Ok(pair::inside(segment)),
         Triage::Crossing => cross(frustum, segment, accuracy, counts, &p, &q),
-        Triage::Unsure => unsure(frustum, segment, accuracy, counts, &p, &q),
+        Triage::Unsure => super::clip(frustum, segment, accuracy, counts, |s| span(s)),
     }
 }
 
-/// Something is near a face, or far away, or not finite.
-#[cold]
+/// Clips what certainly has ends on both sides of some faces. Out of line, so
+/// that the early outs carry nothing of it.
 #[inline(never)]
-fn unsure<T: Real>(
-    frustum: &Frustum,
-    segment: &Segment<T>,
-    accuracy: Accuracy,
-    counts: &mut StageCounts,
-    p: &Values,
-    q: &Values,
-) -> Result<SegmentClip<T>, NonFinite> {
-    let filter = frustum.filter();
-    let wide = segment.to_f64();
-    let lattice = filter.is_lattice(wide.start, p.size) && filter.is_lattice(wide.end, q.size);
-    if lattice && accuracy == Accuracy::Fast {
-        return Ok(on_lattice(frustum, segment, &wide, [p, q]));
-    }
-    super::clip(frustum, segment, accuracy, counts, |s| span(s))
-}
-
-/// Where floating point makes no error. Values have at most 25 bits, so two
-/// crossing parameters that differ do so by more than 2^-52, and rounded
-/// quotients are in the order of the exact ones, equal where they are: the
-/// plain algorithm decides exactly.
-fn on_lattice<T: Real>(
-    frustum: &Frustum,
-    segment: &Segment<T>,
-    wide: &Segment<f64>,
-    values: [&Values; 2],
-) -> SegmentClip<T> {
-    let decided = plain::in_frame::<vw::Plain, f64>(frustum.plain(), wide);
-    let Some(part) = decided.part else {
-        return SegmentClip::OUTSIDE;
-    };
-    let finish = |end: &PartEnd<f64>| {
-        let crossed = end.faces.difference(part.coplanar);
-        let (t, point) = match (end.t, crossed.first()) {
-            (1.0, _) => (T::ONE, segment.end),
-            (t, Some(face)) if t > 0.0 => {
-                let [a, b] = values.map(|v| v.g[face as usize].abs());
-                let step = points::Step::new(a, b, wide);
-                points::place(frustum.filter(), wide, step, end.faces)
-            }
-            _ => (T::ZERO, segment.start),
-        };
-        PartEnd {
-            t,
-            point,
-            clipped: end.clipped,
-            faces: end.faces,
-            inward: !end.clipped,
-        }
-    };
-    let entry = finish(&part.entry);
-    let mut exit = finish(&part.exit);
-    if exit.t < entry.t {
-        exit.t = entry.t;
-    }
-    SegmentClip {
-        class: decided.class,
-        part: Some(Part {
-            entry,
-            exit,
-            coplanar: part.coplanar,
-        }),
-    }
-}
-
-/// Clips what certainly has ends on both sides of some faces.
-#[inline(always)]
 fn cross<T: Real>(
     frustum: &Frustum,
     segment: &Segment<T>,
@@ -152,17 +91,17 @@ fn cross<T: Real>(
 ) -> Result<SegmentClip<T>, NonFinite> {
     let filter = frustum.filter();
     let thresholds = thresholds(filter, p.size + q.size);
-    match certify(&pairs(&p.g), &pairs(&q.g), thresholds) {
-        Certificate::Outside => return Ok(SegmentClip::OUTSIDE),
+    match certify(&p.pairs, &q.pairs, thresholds) {
+        Certificate::Outside => return Ok(outside()),
         Certificate::Cross(crossing) if accuracy == Accuracy::Fast => {
-            if let Some(result) = fast(filter, segment, &crossing) {
-                return Ok(result);
-            }
+            return Ok(fast(filter, &segment.to_f64(), &crossing));
         }
         Certificate::Cross(crossing) => {
             let mut staged = Staged::with(frustum, segment.to_f64(), [*p, *q], false);
             let decision = crossing.decision();
-            return Ok(points::build(&mut staged, segment, &decision, accuracy));
+            let result = points::build(&mut staged, segment, &decision, accuracy);
+            staged.add_to(counts);
+            return Ok(result);
         }
         Certificate::None => {}
     }
@@ -193,13 +132,6 @@ enum Triage {
     Unsure,
 }
 
-/// (near, far), (left, right), (bottom, top).
-#[inline(always)]
-fn pairs(g: &[f64; 6]) -> [f64x2; 3] {
-    let pair = |i: usize| f64x2::new([g[i], g[i + 1]]);
-    [pair(0), pair(2), pair(4)]
-}
-
 #[inline(always)]
 fn triage(filter: &Filter, p: &Values, q: &Values) -> Triage {
     let size = p.size + q.size;
@@ -208,7 +140,7 @@ fn triage(filter: &Filter, p: &Values, q: &Values) -> Triage {
     }
     let (depth, side) = thresholds(filter, size);
     let (depth, side) = (f64x2::splat(depth), f64x2::splat(side));
-    let (a, b) = (pairs(&p.g), pairs(&q.g));
+    let (a, b) = (&p.pairs, &q.pairs);
     let greater = |i: usize| a[i].fast_max(b[i]);
     let sides = greater(1).fast_min(greater(2));
     if (greater(0).simd_lt(-depth) | sides.simd_lt(-side)).any() {
@@ -247,7 +179,7 @@ struct Crossing {
 impl Crossing {
     /// The decision: nothing is on a face, and there are no ties.
     fn decision(&self) -> Decision {
-        let clipped = self.clipped();
+        let clipped = pair::flags(self.clipped);
         let end = |i: usize, own| {
             let face = Face::ALL[self.faces[i]];
             if clipped[i] {
@@ -264,12 +196,6 @@ impl Crossing {
             faces: [entry.1, exit.1],
             coplanar: FaceSet::EMPTY,
         }
-    }
-
-    #[inline(always)]
-    fn clipped(&self) -> [bool; 2] {
-        let bits = self.clipped.to_bitmask();
-        [bits & 1 != 0, bits & 2 != 0]
     }
 }
 
@@ -337,83 +263,22 @@ fn number(t: f64) -> usize {
     (t.to_bits() & 7) as usize
 }
 
-/// Constructs both ends of a certain crossing side by side, by the rule of
-/// [`super::points`]; `None` for its tie of equal boundary values.
+/// Constructs both ends of a certain crossing.
 #[inline(always)]
-fn fast<T: Real>(
-    filter: &Filter,
-    segment: &Segment<T>,
-    crossing: &Crossing,
-) -> Option<SegmentClip<T>> {
-    let Segment { start, end } = segment.to_f64();
-    let all = f64x2::splat;
-    let a = filter.precise.magnitudes(crossing.faces, start);
-    let b = filter.precise.magnitudes(crossing.faces, end);
-    if a.simd_eq(b).any() {
-        return None;
-    }
-    let from_end = b.simd_lt(a);
-    let tau = a.fast_min(b) / (a + b);
-    let t = from_end.bitselect(all(1.0) - tau, tau);
-    let signed = from_end.bitselect(-tau, tau);
-    // Adding zero: the sign of a zero must not depend on the order of the ends.
-    let crossed =
-        |p: f64, q: f64| from_end.bitselect(all(q), all(p)) + signed * all(q - p) + all(0.0);
-    let clipped = crossing.clipped;
-    let select = |v: f64x2, p: f64, q: f64| {
-        let ends = clipped.bitselect(v, f64x2::new([p, q]));
-        let [a, b] = ends.to_array();
-        [T::from_f64(a), T::from_f64(b)]
-    };
-    let x = select(crossed(start.x, end.x), start.x, end.x);
-    let y = select(crossed(start.y, end.y), start.y, end.y);
-    let z = crossed(start.z, end.z);
-    let z = select(
-        filter.precise.exact_depth(crossing.faces, z),
-        start.z,
-        end.z,
-    );
-    let t = select(t, 0.0, 1.0);
-    let clipped = crossing.clipped();
-    let finish = |i: usize| PartEnd {
-        t: t[i],
-        point: Vec3::new(x[i], y[i], z[i]),
-        clipped: clipped[i],
-        faces: FaceSet::from_bits(u8::from(clipped[i]) << crossing.faces[i]),
-        inward: !clipped[i],
-    };
-    let entry = finish(0);
-    let mut exit = finish(1);
-    if exit.t < entry.t {
-        exit.t = entry.t;
-    }
-    Some(SegmentClip {
-        class: Class::Cross,
-        part: Some(Part {
-            entry,
-            exit,
-            coplanar: FaceSet::EMPTY,
-        }),
-    })
-}
-
-#[inline(always)]
-fn inside<T: Real>(segment: &Segment<T>) -> SegmentClip<T> {
-    let end = |t, point| PartEnd {
-        t,
-        point,
-        clipped: false,
-        faces: FaceSet::EMPTY,
-        inward: true,
-    };
-    SegmentClip {
-        class: Class::Inside,
-        part: Some(Part {
-            entry: end(T::ZERO, segment.start),
-            exit: end(T::ONE, segment.end),
-            coplanar: FaceSet::EMPTY,
-        }),
-    }
+fn fast<T: Real>(filter: &Filter, wide: &Segment<f64>, crossing: &Crossing) -> SegmentClip<T> {
+    let Crossing { faces, clipped } = *crossing;
+    let a = filter.precise.magnitudes(faces, wide.start);
+    let b = filter.precise.magnitudes(faces, wide.end);
+    let points = pair::construct(filter, wide, faces, [a, b], clipped);
+    let clipped = pair::flags(clipped);
+    let set = |i: usize| FaceSet::from_bits(u8::from(clipped[i]) << faces[i]);
+    pair::assemble(
+        Class::Cross,
+        &points,
+        clipped,
+        [set(0), set(1)],
+        FaceSet::EMPTY,
+    )
 }
 
 /// The control flow on exact predicates: the parameter interval in TV (near,
