@@ -44,22 +44,22 @@ wrong     classes/sets (entry, exit, coplanar, clipped flags), by rational arith
           what juts out is longer by whole factors, so crossing parameters are rounded. Turned,
           rotated: samples, and stretched ones, in 48 axis orientations and in rotated poses
 error     the largest of all answers of the right class: in roundoffs of the segment's largest
-          coordinate (u*size), and in units in the last place of the exact coordinate
+          coordinate (u*max), and in units in the last place of the exact coordinate
 ";
 
 fn heading(f: &mut fmt::Formatter<'_>, row: &PaperRow) -> fmt::Result {
     let right = format!("right of {}", row.standard.samples);
     writeln!(
         f,
-        "\n{:21} {:^27} {right:>11} {:^29} {:^10}",
+        "\n{:21} {:^27} {right:>11} {:^28} {:>9}",
         "", "run time", "wrong", "error"
     )?;
     let [stretched, turned, rotated] =
         [&row.stretched, &row.turned, &row.rotated].map(|s| format!("of {}", s.samples));
-    writeln!(f, "{:59}{stretched:>10}{turned:>10}{rotated:>10}", "")?;
+    writeln!(f, "{:59}{stretched:>10}{turned:>9}{rotated:>10}", "")?;
     writeln!(
         f,
-        "{:21} {:>5} {:>6} {:>8} {:>5} {:>5} {:>4}{:>10}{:>10}{:>10} {:>5} {:>4}",
+        "{:21} {:>5} {:>6} {:>8} {:>5} {:>5} {:>4}{:>10}{:>9}{:>10} {:>5} {:>4}",
         "",
         "paper",
         "order",
@@ -70,7 +70,7 @@ fn heading(f: &mut fmt::Formatter<'_>, row: &PaperRow) -> fmt::Result {
         "stretched",
         "turned",
         "rotated",
-        "u*size",
+        "u*max",
         "ulp"
     )
 }
@@ -78,14 +78,14 @@ fn heading(f: &mut fmt::Formatter<'_>, row: &PaperRow) -> fmt::Result {
 fn line(f: &mut fmt::Formatter<'_>, row: &PaperRow) -> fmt::Result {
     let paper = row.paper.map_or("-".into(), |r| format!("{r:.3}"));
     let wrong = |s: &Score| format!("{}/{}", s.wrong()[0], s.wrong()[1]);
-    let [error, ulps] = row.max_error().map(short);
+    let [error, ulps] = row.max_error().map(|e| fit(e, 2, 4));
+    let ratios = [row.in_order, row.shuffled].map(|timing| fit(timing.ratio, 3, 6));
+    let [order, shuffled] = ratios;
+    let nanoseconds = fit(row.shuffled.nanoseconds, 1, 5);
     writeln!(
         f,
-        "{:<21} {paper:>5} {:>6.3} {:>8.3} {:>5.1} {:>5} {:>4}{:>10}{:>10}{:>10} {error:>5} {ulps:>4}",
+        "{:<21} {paper:>5} {order:>6} {shuffled:>8} {nanoseconds:>5} {:>5} {:>4}{:>10}{:>9}{:>10} {error:>5} {ulps:>4}",
         row.algorithm,
-        row.in_order.ratio,
-        row.shuffled.ratio,
-        row.shuffled.nanoseconds,
         row.standard.right_classes,
         row.standard.right_sets,
         wrong(&row.stretched),
@@ -99,13 +99,12 @@ fn line(f: &mut fmt::Formatter<'_>, row: &PaperRow) -> fmt::Result {
     }
 }
 
-/// In at most four columns.
-fn short(value: f64) -> String {
-    match value {
-        v if v < 9.995 => format!("{v:.2}"),
-        v if v < 9999.5 => format!("{v:.0}"),
-        v => format!("{v:.0e}"),
-    }
+/// A number in so many columns, with as many of the decimals as fit.
+fn fit(value: f64, decimals: usize, columns: usize) -> String {
+    let decimals = (0..=decimals).rev();
+    let texts = decimals.map(|digits| format!("{value:.digits$}"));
+    let fitting = texts.into_iter().find(|text| text.len() <= columns);
+    fitting.unwrap_or_else(|| format!("{value:.0e}"))
 }
 
 /// Which samples were answered wrongly, and how the first time.
@@ -143,4 +142,25 @@ fn failures(f: &mut fmt::Formatter<'_>, row: &PaperRow) -> fmt::Result {
         writeln!(f, "      and on {} more samples", samples - told)?;
     }
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_keep_to_their_columns() {
+        for (value, text) in [
+            (0.0, "0.00"),
+            (9.994, "9.99"),
+            (9.996, "10.0"),
+            (128.0, "128"),
+            (9999.4, "9999"),
+            (123_456.0, "1e5"),
+        ] {
+            assert_eq!(fit(value, 2, 4), text);
+        }
+        assert_eq!(fit(10_515.5, 1, 5), "10516");
+        assert_eq!(fit(158.858, 3, 6), "158.86");
+    }
 }

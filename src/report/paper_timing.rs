@@ -213,7 +213,7 @@ mod tests {
             segment: &Segment<f64>,
         ) -> Result<SegmentClip<f64>, NonFinite> {
             self.0.set(self.0.get() + 1);
-            if self.0.get() % 1000 == 0 {
+            if self.0.get().is_multiple_of(1000) {
                 Ok(SegmentClip::OUTSIDE)
             } else {
                 VwProjection::plain().clip_segment(frustum, segment)

@@ -27,7 +27,7 @@ struct Cli {
 
 #[derive(Subcommand)]
 enum Command {
-    Clip(clip::ClipArgs),
+    Clip(Box<clip::ClipArgs>),
     Report(report::ReportArgs),
     Verify(verify::VerifyArgs),
 }
