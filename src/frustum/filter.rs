@@ -275,8 +275,10 @@ impl Filter {
             identity,
             form: Form::of(shape),
             sigma,
-            near: near.z,
-            far: far.map_or(near.z, |far| far.z),
+            // Adding zero turns -0 into 0: hits get these values, and zeros of
+            // crossings are positive.
+            near: near.z + 0.0,
+            far: far.map_or(near.z, |far| far.z) + 0.0,
             at_near: near.rect.to_array(),
             slope: slopes.map(|s| s.hi),
             origin: pose.origin,
@@ -313,8 +315,11 @@ impl Filter {
         self.side = (RELATIVE * constant + FLOOR, RELATIVE * factor);
         let reach = self.near.abs().max(self.far.abs());
         self.depth = (RELATIVE * reach + FLOOR, RELATIVE * z);
-        // Below it every value stays under 2^481, so that products of two and
-        // the splitting of any operand cannot overflow.
+        // Below it the part of a value that changes with the point stays under
+        // 2^480, so that of faces with values of both signs no value reaches
+        // 2^482: products of two do not overflow, nor do any operand's halves.
+        // A face far from all such points may have values up to 2^602, of one
+        // sign, which nothing multiplies.
         self.limit = exp2(480) / factor.max(z).max(1.0);
     }
 
@@ -340,7 +345,8 @@ impl Filter {
 
     /// The finest unit such that points on its multiples, as far out as a few
     /// times the frustum's size, have values of at most 25 bits: then the
-    /// values and the products of two are exact.
+    /// values and the products of two are exact. `None` also where those products
+    /// could underflow, and for an apex at the world's origin, which has no size.
     fn find_lattice(&self, shape: &Shape, slopes: &[Dd; 4]) -> Option<Lattice> {
         if self.limit == 0.0 || !slopes_exact(shape, slopes) {
             return None;
@@ -354,9 +360,14 @@ impl Filter {
         let smallest_axis = sizes.into_iter().fold(f64::INFINITY, f64::min);
         let reach = (largest / smallest_axis)
             .max(self.origin.to_array().iter().map(fixed).fold(0.0, f64::max));
-        let limit = exp2((8.0 * reach).log2().ceil() as i32);
+        if reach == 0.0 {
+            return None;
+        }
+        // The logarithm of `libm` is the same on every machine.
+        let power = |v: f64| libm::log2(v).ceil() as i32;
+        let limit = exp2(power(8.0 * reach));
         let size = factor * limit + 2.0 * largest * (1.0 + slope_size);
-        let top = size.log2().ceil() as i32;
+        let top = power(size);
 
         let least = |v: &mut dyn Iterator<Item = f64>| v.filter_map(lowest_bit).min();
         let axes = least(&mut self.axes.iter().flat_map(|a| a.to_array()))?;
@@ -366,7 +377,7 @@ impl Filter {
         // lowest bit of a value = min(unit + axes, constants) + slopes >= top - 25
         let unit = top - 25 - slopes - axes;
         let coarsest = constants.min(origin.map_or(constants, |o| o + axes));
-        if coarsest + slopes < top - 25 || unit > 400 || unit < -500 {
+        if coarsest + slopes < top - 25 || unit > 400 || unit < -500 || top < -475 {
             return None;
         }
         Some(Lattice {

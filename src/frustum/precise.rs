@@ -68,8 +68,8 @@ impl Precise {
         let far = shape.far().map_or(near.z, |far| far.z);
         Precise {
             rows: [
-                row(2, near.z, level),
-                row(2, far, level),
+                row(2, near.z + 0.0, level),
+                row(2, far + 0.0, level),
                 side(0),
                 side(1),
                 side(2),
