@@ -56,6 +56,7 @@ impl Dyadic {
     }
 
     /// The order of the value to a double.
+    #[cfg(test)]
     pub(crate) fn cmp_f64(&self, value: f64) -> Ordering {
         Number::add(self, &Dyadic::from_f64(-value)).map_or(Ordering::Equal, |d| d.sign())
     }

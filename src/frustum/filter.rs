@@ -18,10 +18,8 @@
 //! |g~ - g| <= 9.2 u scale, plus underflow, which [`FLOOR`] covers.
 //! With the identity pose 5.1 u scale.
 //!
-//! A double-double evaluation of the same expression, with the slope to 106
-//! bits, is within 60 u^2 scale: at most 6 operations deep, each with a
-//! relative error of at most 5 u^2 (15 u^2 for the slope) in terms that add up
-//! to scale.
+//! The double-double values of [`super::precise`] are within 60 u^2 scale; the
+//! count is there.
 //!
 //! The *threshold* is T = 2^-46 scale + FLOOR = 128 u scale + FLOOR. So
 //! |g~| > T means:
