@@ -1,4 +1,52 @@
-//! Exactly right and fast clipping and culling against view frusta.
+//! Exactly right and fast clipping against view frusta.
+//!
+//! | module | what is in it |
+//! |---|---|
+//! | [`math`] | points, segments, rectangles, poses |
+//! | [`frustum`] | [`Frustum`] and its constructors: [`Camera`], [`ViewProjection`], [`SixPoints`] |
+//! | [`clip`] | [`Frustum::clip_segment`], and the algorithms behind [`SegmentClipper`] |
+//! | [`samples`] | the 78 singular samples, and seeded families of hard cases |
+//! | `oracle` | (feature `oracle`) the truth by rational arithmetic |
+//! | `report` | (feature `report`) measuring and verifying |
+//!
+//! # A first example
+//! ```
+//! use frusta::{Class, EndRect, Face, Frustum, Pose, Segment, Shape};
+//!
+//! // From a unit square at z = 1 to a square three times as large at z = 3.
+//! let frustum = Frustum::new(
+//!     Pose::IDENTITY,
+//!     Shape::Finite {
+//!         near: EndRect::new(1.0, -1.0, 1.0, -1.0, 1.0),
+//!         far: EndRect::new(3.0, -3.0, 3.0, -3.0, 3.0),
+//!     },
+//! )?;
+//! let clip = frustum.clip_segment(&Segment::new([0.0, 0.0, 2.0], [4.0, 0.0, 2.0]))?;
+//! assert_eq!(clip.class, Class::Cross);
+//! let exit = clip.part.unwrap().exit;
+//! assert_eq!((exit.t, exit.point), (0.5, [2.0, 0.0, 2.0].into()));
+//! assert!(exit.faces.contains(Face::Right));
+//!
+//! // Through an edge from outside to outside: one point in common.
+//! let clip = frustum.clip_segment(&Segment::new([3.0, 1.0, 2.0], [1.0, 3.0, 2.0]))?;
+//! assert_eq!(clip.class, Class::Touch);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! # Guarantees
+//! For every finite segment, exact arithmetic (the default) gives:
+//!
+//! - **G1** the exact [`Class`] and face sets;
+//! - **G2** unclipped ends bit for bit, and exact `z` on near and far in the identity pose;
+//! - **G3** points to the [`Accuracy`] asked for;
+//! - **G4** with [`Accuracy::Inward`], points that are in the frustum;
+//! - **G5** the swapped result for swapped ends, bit for bit;
+//! - **G6** `Inward` results that clip to themselves;
+//! - **G8** the same bits with every algorithm, on every platform and number of
+//!   threads, with SIMD or without: no fused multiply-add is used.
+//!
+//! (**G7**, how far an `Inward` end could still move outwards, is measured, not
+//! promised.) A coordinate that is not finite is an error, never a panic.
 
 pub mod clip;
 mod exact;
@@ -21,3 +69,7 @@ pub use frustum::{
     SixPoints, Trapezoid, TrapezoidEnd, ViewProjection,
 };
 pub use math::{Axis, End, Interval, NonFinite, Pose, Real, Rect, Segment, Vec3};
+
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+mod readme {}

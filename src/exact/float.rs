@@ -96,6 +96,11 @@ pub(crate) fn decompose(value: f64) -> (u64, i32) {
     }
 }
 
+/// The least exponent whose power of two exceeds a positive normal double.
+pub(crate) fn exponent_above(value: f64) -> i32 {
+    decompose(value).1 + 53
+}
+
 /// 2 to an integer power; 0 below the subnormals, infinite above the range.
 pub(crate) fn exp2(exponent: i32) -> f64 {
     match exponent {
@@ -129,6 +134,7 @@ mod tests {
         assert_eq!(lowest_bit(-6.0), Some(1));
         assert_eq!(lowest_bit(5e-324), Some(-1074));
         assert_eq!(decompose(-1.0), (1 << 52, -52));
+        assert_eq!((exponent_above(1.0), exponent_above(0.99)), (1, 0));
         for e in -1074..1024 {
             assert_eq!(lowest_bit(exp2(e)), Some(e));
         }

@@ -33,7 +33,7 @@ use super::precise::Precise;
 use super::{Face, Form, Frustum, General, Layout, Shape};
 use crate::exact::double_double::Dd;
 use crate::exact::expansion::in_safe_range;
-use crate::exact::float::{exp2, lowest_bit, two_diff, two_prod};
+use crate::exact::float::{exp2, exponent_above, lowest_bit, two_diff, two_prod};
 use crate::math::{Pose, Segment, Vec3};
 use std::cmp::Ordering;
 use wide::f64x2;
@@ -45,7 +45,7 @@ const RELATIVE: f64 = 1.4210854715202004e-14;
 pub(crate) const PRECISE: f64 = 1.1102230246251565e-16;
 /// 2^-500: far above what underflow can do inside [`in_range`], far below
 /// every scale.
-pub(crate) const FLOOR: f64 = 3.0549363634996047e-151;
+pub(crate) const FLOOR: f64 = 3.054_936_363_499_605e-151;
 /// Stands for the far value of an infinite frustum: never crossed.
 pub(crate) const NO_FAR: f64 = 1e300;
 
@@ -225,13 +225,11 @@ impl Filter {
         }
         let value = self.precise.value(face as usize, p).hi;
         let certain = value.abs() > PRECISE * self.threshold(face, values.size);
-        certain.then(|| {
-            if value > 0.0 {
-                Ordering::Greater
-            } else {
-                Ordering::Less
-            }
-        })
+        if certain {
+            value.partial_cmp(&0.0)
+        } else {
+            None
+        }
     }
 
     /// Whether all values at both ends, and quotients of two of them, are in exact
@@ -273,8 +271,7 @@ impl Filter {
             identity,
             form: Form::of(shape),
             sigma,
-            // Adding zero turns -0 into 0: hits get these values, and zeros of
-            // crossings are positive.
+            // Never minus zero: a hit takes its coordinate from here.
             near: near.z + 0.0,
             far: far.map_or(near.z, |far| far.z) + 0.0,
             at_near: near.rect.to_array(),
@@ -343,8 +340,8 @@ impl Filter {
 
     /// The finest unit such that points on its multiples, as far out as a few
     /// times the frustum's size, have values of at most 25 bits: then the
-    /// values and the products of two are exact. `None` also where those products
-    /// could underflow, and for an apex at the world's origin, which has no size.
+    /// values and the products of two are exact. `None` also where such products
+    /// could underflow.
     fn find_lattice(&self, shape: &Shape, slopes: &[Dd; 4]) -> Option<Lattice> {
         if self.limit == 0.0 || !slopes_exact(shape, slopes) {
             return None;
@@ -359,13 +356,12 @@ impl Filter {
         let reach = (largest / smallest_axis)
             .max(self.origin.to_array().iter().map(fixed).fold(0.0, f64::max));
         if reach == 0.0 {
+            // An infinite pyramid from the world's origin has no size.
             return None;
         }
-        // The logarithm of `libm` is the same on every machine.
-        let power = |v: f64| libm::log2(v).ceil() as i32;
-        let limit = exp2(power(8.0 * reach));
+        let limit = exp2(exponent_above(4.0 * reach));
         let size = factor * limit + 2.0 * largest * (1.0 + slope_size);
-        let top = power(size);
+        let top = exponent_above(size);
 
         let least = |v: &mut dyn Iterator<Item = f64>| v.filter_map(lowest_bit).min();
         let axes = least(&mut self.axes.iter().flat_map(|a| a.to_array()))?;
@@ -375,7 +371,7 @@ impl Filter {
         // lowest bit of a value = min(unit + axes, constants) + slopes >= top - 25
         let unit = top - 25 - slopes - axes;
         let coarsest = constants.min(origin.map_or(constants, |o| o + axes));
-        if coarsest + slopes < top - 25 || unit > 400 || unit < -500 || top < -475 {
+        if coarsest + slopes < top - 25 || !(-500..=400).contains(&unit) || top < -475 {
             return None;
         }
         Some(Lattice {

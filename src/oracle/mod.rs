@@ -27,6 +27,7 @@
 
 mod check;
 mod dyadic;
+mod gauge;
 mod half_space;
 mod inward;
 mod reference;
@@ -34,6 +35,7 @@ mod round;
 mod violation;
 
 pub use check::{check, check_idempotent, check_swapped};
+pub use gauge::Gauge;
 pub use reference::OracleClipper;
 pub use round::round_nearest;
 pub use violation::{Violation, ViolationKind};

@@ -49,6 +49,11 @@ pub(crate) fn ulp_exponent_at<T: Real>(x: &BigRational) -> i64 {
     }
 }
 
+/// The same as a double.
+pub(crate) fn ulp_at<T: Real>(x: &BigRational) -> f64 {
+    scale(1, ulp_exponent_at::<T>(x))
+}
+
 /// All finite values of `T` within `ulps` units in the last place of `x`, in
 /// ascending order.
 pub(crate) fn neighbours<T: Real>(x: &BigRational, ulps: u32) -> Vec<T> {

@@ -1,9 +1,16 @@
 //! Measuring clippers and saying what was found.
 
+mod paper;
+mod paper_answers;
+mod paper_table;
+mod paper_timing;
 mod verify;
 mod verify_table;
 
-pub use verify::{ExactClipper, FamilyRow, Options, Subject, Witness, verify};
+pub use paper::{PaperRow, PaperTable, Tier, paper_rounds, paper_table, rotated_poses};
+pub use paper_answers::{PaperFailure, Score, Topology};
+pub use paper_timing::Timing;
+pub use verify::{ExactClipper, FamilyRow, Options, Subject, Witness, verify, verify_watched};
 pub use verify_table::VerifyTable;
 
 #[cfg(test)]

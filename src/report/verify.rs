@@ -102,6 +102,14 @@ impl Default for Options {
     }
 }
 
+impl Options {
+    /// How many cases these are, in all families and scalar types.
+    pub fn total(&self) -> u64 {
+        let types = |f: &Family| 1 + u64::from(self.singles && f.has_f32());
+        self.cases * self.families.iter().map(types).sum::<u64>()
+    }
+}
+
 /// What was found in one family in one scalar type.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FamilyRow {
@@ -223,6 +231,17 @@ impl fmt::Display for Witness {
 pub fn verify(
     subject: &dyn Subject,
     options: &Options,
+    on_row: impl FnMut(&FamilyRow),
+) -> Vec<FamilyRow> {
+    verify_watched(subject, options, &|_| {}, on_row)
+}
+
+/// As [`verify`]; `on_cases` hears from every thread how many more cases are
+/// done, up to [`BLOCK`] at a time. [`Options::total`] says how many there are.
+pub fn verify_watched(
+    subject: &dyn Subject,
+    options: &Options,
+    on_cases: &(dyn Fn(u64) + Sync),
     mut on_row: impl FnMut(&FamilyRow),
 ) -> Vec<FamilyRow> {
     let mut rows = Vec::new();
@@ -231,9 +250,9 @@ pub fn verify(
             on_row(&row);
             rows.push(row);
         };
-        add(verify_family::<f64>(subject, options, family));
+        add(verify_family::<f64>(subject, options, family, on_cases));
         if options.singles && family.has_f32() {
-            add(verify_family::<f32>(subject, options, family));
+            add(verify_family::<f32>(subject, options, family, on_cases));
         }
     }
     rows
@@ -273,7 +292,12 @@ macro_rules! scalar {
 scalar!(f64, clip_f64);
 scalar!(f32, clip_f32);
 
-fn verify_family<T: Scalar>(subject: &dyn Subject, options: &Options, family: Family) -> FamilyRow {
+fn verify_family<T: Scalar>(
+    subject: &dyn Subject,
+    options: &Options,
+    family: Family,
+    on_cases: &(dyn Fn(u64) + Sync),
+) -> FamilyRow {
     let blocks = options.cases.div_ceil(BLOCK);
     let next = AtomicU64::new(0);
     let total = Mutex::new(FamilyRow::new(family, T::NAME));
@@ -286,10 +310,12 @@ fn verify_family<T: Scalar>(subject: &dyn Subject, options: &Options, family: Fa
             }
             let scene = family.scene(options.seed, block);
             let mut run = Run::<T>::new(subject, &scene, &mut row);
-            for index in block * BLOCK..((block + 1) * BLOCK).min(options.cases) {
+            let cases = block * BLOCK..((block + 1) * BLOCK).min(options.cases);
+            for index in cases.clone() {
                 let segment = family.segment::<T>(&scene, options.seed, index);
                 run.case(&segment, index);
             }
+            on_cases(cases.end - cases.start);
         }
         // A thread that panicked added nothing, so the total is whole.
         let mut total = total.lock().unwrap_or_else(|e| e.into_inner());

@@ -24,24 +24,33 @@ const COLUMNS: [(&str, &[Kind]); 7] = [
 
 const WIDTH: usize = 120;
 
-impl fmt::Display for VerifyTable<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{:<18} {:>3} {:>9}", "family", "", "cases")?;
+impl VerifyTable<'_> {
+    /// The columns' names.
+    pub fn heading() -> String {
+        let mut line = format!("{:<18} {:>3} {:>9}", "family", "", "cases");
         for (name, _) in COLUMNS {
-            write!(f, " {name:>6}")?;
+            line += &format!(" {name:>6}");
         }
-        writeln!(
-            f,
-            " {:>5} {:>5} {:>5} {:>5} {:>6} {:>5}",
-            "filt.%", "exp.%", "int.%", "none%", "G7max", "mean"
-        )?;
-        for row in self.0 {
-            line(f, row.family.name(), row.scalar, row)?;
-        }
+        let shares = ["filt.%", "exp.%", "int.%", "none%", "G7max", "mean"];
+        let [filter, expansions, integers, none, max, mean] = shares;
+        line + &format!(" {filter:>6} {expansions:>5} {integers:>5} {none:>5} {max:>6} {mean:>5}")
+    }
+
+    /// What follows the families' lines: their sum, and the first witnesses.
+    pub fn summary(&self) -> String {
+        Summary(self.0).to_string()
+    }
+}
+
+struct Summary<'a>(&'a [FamilyRow]);
+
+impl fmt::Display for Summary<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let mut rows = self.0.iter().cloned();
         if let Some(mut total) = rows.next() {
             rows.for_each(|row| total.merge(row));
             line(f, "all", "", &total)?;
+            writeln!(f)?;
         }
         let refused: u64 = self.0.iter().map(|r| r.count(Kind::Refused)).sum();
         if refused > 0 {
@@ -57,6 +66,23 @@ impl fmt::Display for VerifyTable<'_> {
     }
 }
 
+impl fmt::Display for VerifyTable<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        writeln!(f, "{}", Self::heading())?;
+        for row in self.0 {
+            writeln!(f, "{row}")?;
+        }
+        Summary(self.0).fmt(f)
+    }
+}
+
+/// The family's line of the table.
+impl fmt::Display for FamilyRow {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        line(f, self.family.name(), self.scalar, self)
+    }
+}
+
 fn line(f: &mut fmt::Formatter<'_>, name: &str, scalar: &str, row: &FamilyRow) -> fmt::Result {
     write!(f, "{name:<18} {scalar:>3} {:>9}", row.cases)?;
     for (_, kinds) in COLUMNS {
@@ -69,9 +95,9 @@ fn line(f: &mut fmt::Formatter<'_>, name: &str, scalar: &str, row: &FamilyRow) -
         let decimals = if percent < 9.995 { 2 } else { 1 };
         format!("{percent:.decimals$}")
     };
-    writeln!(
+    write!(
         f,
-        " {:>5} {:>5} {:>5} {:>5} {:>6.3} {:>5.2}",
+        " {:>6} {:>5} {:>5} {:>5} {:>6.3} {:>5.2}",
         share(row.filter_failures, row.cases),
         share(row.expansions, row.cases),
         share(row.integers, row.cases),

@@ -4,6 +4,7 @@
 mod bad_input;
 mod formats;
 mod output;
+mod report;
 mod statistics;
 mod view;
 

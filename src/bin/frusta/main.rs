@@ -8,7 +8,10 @@ mod input;
 mod number;
 mod output;
 mod pipeline;
+mod report;
 mod stats;
+mod terminal;
+mod verify;
 mod view;
 
 use clap::{Parser, Subcommand};
@@ -25,6 +28,8 @@ struct Cli {
 #[derive(Subcommand)]
 enum Command {
     Clip(clip::ClipArgs),
+    Report(report::ReportArgs),
+    Verify(verify::VerifyArgs),
 }
 
 /// Part of every help text.
@@ -37,12 +42,22 @@ Exit codes:
 /// The exit code of a failure; `clap` uses the same for wrong usage.
 const FAILED: u8 = 2;
 
+/// The exit code of `report` and `verify` if an exact answer is wrong.
+const WRONG: u8 = 1;
+
+/// How many threads there are to use.
+pub(crate) fn cores() -> usize {
+    std::thread::available_parallelism().map_or(1, usize::from)
+}
+
 fn main() -> ExitCode {
     let result = match Cli::parse().command {
-        Command::Clip(args) => clip::run(&args),
+        Command::Clip(args) => clip::run(&args).map(|()| ExitCode::SUCCESS),
+        Command::Report(args) => report::run(&args),
+        Command::Verify(args) => verify::run(&args),
     };
     match result {
-        Ok(()) => ExitCode::SUCCESS,
+        Ok(code) => code,
         Err(failure) => {
             eprintln!("frusta: {failure}");
             ExitCode::from(FAILED)

@@ -38,6 +38,7 @@ impl Counts {
         self.clipped_ends += other.clipped_ends;
         self.not_inward += other.not_inward;
         self.stages.filter_failures += other.stages.filter_failures;
+        self.stages.double_doubles += other.stages.double_doubles;
         self.stages.expansions += other.stages.expansions;
         self.stages.integers += other.stages.integers;
     }
@@ -98,6 +99,7 @@ impl Report<'_> {
         let stages = self.staged.then(|| {
             json!({
                 "filter_failures": counts.stages.filter_failures,
+                "double_doubles": counts.stages.double_doubles,
                 "expansions": counts.stages.expansions,
                 "integers": counts.stages.integers,
             })
@@ -181,8 +183,9 @@ impl Report<'_> {
         }
         if let Some(share) = self.exact_share() {
             let row = format!(
-                "{:.4} % of the segments; {} signs by expansions, {} by integers",
+                "{:.4} % of the segments; {} signs by double-double, {} by expansions, {} by integers",
                 100.0 * share,
+                grouped(counts.stages.double_doubles),
                 grouped(counts.stages.expansions),
                 grouped(counts.stages.integers)
             );

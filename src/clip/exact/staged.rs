@@ -109,11 +109,12 @@ impl<'a> Staged<'a> {
             self.counts.double_doubles += 1;
             return sign;
         }
-        if self.filter().expansions && fits(p) {
-            if let Some(value) = boundary::<Expansion>(self.frustum, face, p) {
-                self.counts.expansions += 1;
-                return value.sign();
-            }
+        if self.filter().expansions
+            && fits(p)
+            && let Some(value) = boundary::<Expansion>(self.frustum, face, p)
+        {
+            self.counts.expansions += 1;
+            return value.sign();
         }
         self.counts.integers += 1;
         self.integer(face, p).sign()
@@ -165,13 +166,11 @@ impl<'a> Staged<'a> {
         let (tpb, tqb) = (t(b, p), t(b, q));
         let bound = tqa * pb.abs() + tpb * qa.abs() + tpa * qb.abs() + tqb * pa.abs();
         let bound = bound + (tqa * tpb + tpa * tqb) + TINY;
-        (cross.abs() > bound).then(|| {
-            if cross > 0.0 {
-                Ordering::Greater
-            } else {
-                Ordering::Less
-            }
-        })
+        if cross.abs() > bound {
+            cross.partial_cmp(&0.0)
+        } else {
+            None
+        }
     }
 
     /// The same in double-double. The values are within 2^-54 thresholds, and
@@ -191,13 +190,11 @@ impl<'a> Staged<'a> {
         let bound = t(a, sq) * pb.hi.abs() + t(b, sp) * qa.hi.abs();
         let bound = bound + t(a, sp) * qb.hi.abs() + t(b, sq) * pa.hi.abs();
         let bound = bound + (t(a, sp) * t(b, sq) + t(a, sq) * t(b, sp)) + TINY;
-        (cross.hi.abs() > bound).then(|| {
-            if cross.hi > 0.0 {
-                Ordering::Greater
-            } else {
-                Ordering::Less
-            }
-        })
+        if cross.hi.abs() > bound {
+            cross.hi.partial_cmp(&0.0)
+        } else {
+            None
+        }
     }
 
     fn exact_cross(&mut self, a: Face, b: Face) -> Ordering {

@@ -27,12 +27,11 @@ use super::decide::{At, Decision};
 use super::staged::Staged;
 use super::{lattice, pair, points};
 use crate::clip::plain::outside;
-use crate::clip::predicates::{Predicates, Span};
+use crate::clip::predicates::{Predicates, Role, Span};
 use crate::clip::{Accuracy, Class, SegmentClip, StageCounts};
 use crate::frustum::filter::{FLOOR, Filter, Values};
 use crate::frustum::{Face, FaceSet, Form, Frustum, General, Layout, Orthographic, Symmetric};
 use crate::math::{End, NonFinite, Real, Segment};
-use std::cmp::Ordering;
 use wide::f64x2;
 
 /// 2^-48: rounding, and the face's number in the last three bits.
@@ -102,7 +101,9 @@ fn cross<T: Real>(
         Certificate::Cross(crossing) => {
             let mut staged = Staged::with(frustum, segment.to_f64(), [*p, *q], false);
             let decision = crossing.decision();
-            return Ok(points::build(&mut staged, segment, &decision, accuracy));
+            let result = points::build(&mut staged, segment, &decision, accuracy);
+            staged.add_to(counts);
+            return Ok(result);
         }
         Certificate::None => {}
     }
@@ -283,36 +284,29 @@ fn fast<T: Real>(filter: &Filter, wide: &Segment<f64>, crossing: &Crossing) -> S
 }
 
 /// The control flow on exact predicates: the parameter interval in TV (near,
-/// far, left, right), then what TW (bottom, top; near and far are shared) takes
-/// off it.
+/// far, left, right), then, if there is one, what TW takes off it (bottom, top;
+/// near and far are shared).
 pub(crate) fn span(p: &mut impl Predicates) -> Option<Span> {
+    let in_tw = |face: &&Face| matches!(face, Face::Bottom | Face::Top);
+    let faces = p.faces();
     let mut span = Span::default();
-    for &face in p.faces() {
-        let start = p.side(face, End::Start);
-        let end = p.side(face, End::End);
-        match (start, end) {
-            (Ordering::Less, Ordering::Less) => return None,
-            (Ordering::Less, _) => {
-                if span
-                    .enter
-                    .is_none_or(|f| p.order(face, f) == Ordering::Greater)
-                {
-                    span.enter = Some(face);
-                }
-            }
-            (_, Ordering::Less) => {
-                if span
-                    .leave
-                    .is_none_or(|f| p.order(face, f) == Ordering::Less)
-                {
-                    span.leave = Some(face);
-                }
-            }
-            _ => {}
-        }
+    for &face in faces.iter().filter(|face| !in_tw(face)) {
+        narrow(&mut span, p, face)?;
     }
-    match (span.enter, span.leave) {
-        (Some(a), Some(b)) if p.order(a, b) == Ordering::Greater => None,
-        _ => Some(span),
+    span = span.unless_empty(p)?;
+    for &face in faces.iter().filter(in_tw) {
+        narrow(&mut span, p, face)?;
     }
+    span.unless_empty(p)
+}
+
+/// What one face takes off a span; `None` if all of it.
+fn narrow(span: &mut Span, p: &mut impl Predicates, face: Face) -> Option<()> {
+    match p.role(face) {
+        Role::Outside => return None,
+        Role::Enter => span.enter(p, face),
+        Role::Leave => span.leave(p, face),
+        Role::Inside => {}
+    }
+    Some(())
 }

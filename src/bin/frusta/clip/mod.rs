@@ -16,11 +16,11 @@ use crate::input::{EdgeChoice, Format};
 use crate::number::Scalar;
 use crate::output::{self, Kind, Writer};
 use crate::stats::{Report, Times};
+use crate::terminal::print;
 use crate::view::ViewArgs;
 use clap::{Args, ValueEnum};
 use run::Run;
 use source::Source;
-use std::io::{ErrorKind, Write};
 use std::path::PathBuf;
 use std::time::Instant;
 
@@ -91,7 +91,7 @@ fn run_as<T: Scalar>(args: &ClipArgs) -> Result<(), Failure> {
     let run = Run {
         engine: Engine::<T>::new(args.algorithm, args.arithmetic, accuracy),
         output: output::Format::new(kind, &view.frustum),
-        threads: args.threads.map_or_else(cores, usize::from),
+        threads: args.threads.map_or_else(crate::cores, usize::from),
         source: &source,
         frustum: &view.frustum,
     };
@@ -129,20 +129,6 @@ fn run_as<T: Scalar>(args: &ClipArgs) -> Result<(), Failure> {
     } else {
         report.to_table()
     })
-}
-
-fn cores() -> usize {
-    std::thread::available_parallelism().map_or(1, usize::from)
-}
-
-/// To the standard output; a reader that has gone away is no failure.
-fn print(text: &str) -> Result<(), Failure> {
-    match std::io::stdout().write_all(text.as_bytes()) {
-        Err(e) if e.kind() != ErrorKind::BrokenPipe => {
-            Err(Failure::new(format_args!("standard output: {e}")))
-        }
-        _ => Ok(()),
-    }
 }
 
 /// The end of `-h`.

@@ -7,8 +7,8 @@ use crate::number::Scalar;
 use crate::output::{self, Formatted, Writer};
 use crate::pipeline;
 use crate::stats::{Counts, Times};
+use crate::terminal::progress_bar;
 use frusta::{Frustum, Segment, SegmentClip};
-use indicatif::{ProgressBar, ProgressStyle};
 use std::time::{Duration, Instant};
 
 /// What to do.
@@ -89,13 +89,4 @@ impl<T: Scalar> Run<'_, T> {
             })
         }
     }
-}
-
-/// A bar on the error stream; invisible where that is no terminal.
-fn progress_bar(size: u64) -> ProgressBar {
-    let bar = ProgressBar::new(size);
-    if let Ok(style) = ProgressStyle::with_template("{bar:40} {percent:>3} %  {eta} left") {
-        bar.set_style(style);
-    }
-    bar
 }

@@ -1,0 +1,121 @@
+//! Each stage of the predicates is reached, and ends with what it is for.
+
+use frusta::samples::{Placement, Solid};
+use frusta::{Accuracy, Class, EndRect, Frustum, Pose, Segment, Shape, StageCounts};
+
+fn counts(frustum: &Frustum, s: &Segment<f64>, accuracy: Accuracy) -> (Class, StageCounts) {
+    let mut counts = StageCounts::default();
+    let clip = frustum
+        .clip_segment_counted(s, accuracy, &mut counts)
+        .unwrap();
+    (clip.class, counts)
+}
+
+fn symmetric() -> Frustum {
+    Placement::IDENTITY.place(&Solid::SYMMETRIC).unwrap()
+}
+
+/// A frustum whose slopes, thirds, no double holds: without a lattice.
+fn thirds() -> Frustum {
+    let shape = Shape::Finite {
+        near: EndRect::new(1.0, -1.0, 1.0, -1.0, 1.0),
+        far: EndRect::new(4.0, -2.0, 2.0, -2.0, 2.0),
+    };
+    Frustum::new(Pose::IDENTITY, shape).unwrap()
+}
+
+#[test]
+fn the_filter_settles_what_is_clear() {
+    let s = Segment::new([0.1, 0.2, 10.3], [70.7, 1.1, 20.9]);
+    let (class, counts) = counts(&symmetric(), &s, Accuracy::Fast);
+    assert_eq!((class, counts), (Class::Cross, StageCounts::default()));
+}
+
+/// In an edge and through a vertex, without any error to bound.
+#[test]
+fn the_lattice_settles_touching_as_fast() {
+    for (s, expected) in [
+        (
+            Segment::new([8.0, -2.0, 8.0], [40.0, 20.0, 40.0]),
+            Class::Boundary,
+        ),
+        (
+            Segment::new([8.0, 0.0, 8.0], [8.0, 8.0, 8.0]),
+            Class::Boundary,
+        ),
+        (
+            Segment::new([8.0, 4.0, 8.0], [16.0, 8.0, 8.0]),
+            Class::Touch,
+        ),
+    ] {
+        let (class, counts) = counts(&symmetric(), &s, Accuracy::Fast);
+        assert_eq!((class, counts), (expected, StageCounts::default()), "{s:?}");
+    }
+}
+
+/// An ulp off a side, below what plain arithmetic can tell.
+#[test]
+fn double_double_settles_near_misses() {
+    // On the side at z = 2.5, x is 1.5.
+    for (x, other, expected) in [
+        (1.5_f64.next_down(), [0.0, 0.1, 2.0], Class::Inside),
+        (1.5_f64.next_up(), [5.0, 0.1, 2.0], Class::Outside),
+    ] {
+        let s = Segment::new([x, 0.3, 2.5], other);
+        let (class, counts) = counts(&thirds(), &s, Accuracy::Fast);
+        assert_eq!(class, expected);
+        assert_eq!(counts.filter_failures, 1, "{counts:?}");
+        assert!(counts.double_doubles > 0, "{counts:?}");
+        assert_eq!((counts.expansions, counts.integers), (0, 0), "{counts:?}");
+    }
+}
+
+/// A point exactly on a side, which no approximation can prove.
+#[test]
+fn expansions_settle_exact_zeros_off_the_lattice() {
+    let s = Segment::new([1.5, 0.3, 2.5], [5.0, 0.3, 2.6]);
+    let (class, counts) = counts(&thirds(), &s, Accuracy::Fast);
+    assert_eq!(class, Class::Touch);
+    assert!(counts.expansions > 0, "{counts:?}");
+    assert_eq!(
+        (counts.filter_failures, counts.integers),
+        (1, 0),
+        "{counts:?}"
+    );
+}
+
+/// The same scaled by a power of two, so that products underflow or overflow.
+#[test]
+fn integers_settle_what_leaves_the_range() {
+    for scale in [2.0_f64.powi(-560), 2.0_f64.powi(560)] {
+        let end =
+            |z: f64, w: f64| EndRect::new(z * scale, -w * scale, w * scale, -w * scale, w * scale);
+        let shape = Shape::Finite {
+            near: end(1.0, 1.0),
+            far: end(4.0, 2.0),
+        };
+        let frustum = Frustum::new(Pose::IDENTITY, shape).unwrap();
+        let s = Segment::new(
+            [1.5 * scale, 0.3 * scale, 2.5 * scale],
+            [5.0 * scale, 0.3 * scale, 2.6 * scale],
+        );
+        let (class, counts) = counts(&frustum, &s, Accuracy::Fast);
+        assert_eq!(class, Class::Touch);
+        assert!(
+            counts.integers > 0 && counts.filter_failures == 1,
+            "{counts:?}"
+        );
+    }
+}
+
+/// Rounding needs integers where the exact coordinate is half way between two
+/// doubles; deciding does not.
+#[test]
+fn nearest_needs_integers_for_ties() {
+    // Crosses x = z at the middle; y there is 1 + 2^-53.
+    let s = Segment::new([10.0, 1.0, 20.0], [30.0, 1.0 + f64::EPSILON, 20.0]);
+    let (class, fast) = counts(&symmetric(), &s, Accuracy::Fast);
+    assert_eq!((class, fast.integers), (Class::Cross, 0));
+    let (_, nearest) = counts(&symmetric(), &s, Accuracy::Nearest);
+    assert!(nearest.integers > 0, "{nearest:?}");
+}
