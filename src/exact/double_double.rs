@@ -2,9 +2,9 @@
 //!
 //! Sources: Dekker (1971); error bounds from Joldes, Muller, Popescu, "Tight
 //! and rigorous error bounds for basic building blocks of double-word
-//! arithmetic" (2017), with u = 2^-53: `add` 3 u^2 + 13 u^3, `mul` 5 u^2,
-//! `div` 15 u^2 + 56 u^3, each relative to the result, wherever nothing
-//! overflows or underflows.
+//! arithmetic" (2017), with u = 2^-53: `add` 3 u^2 + 13 u^3, `mul` 7 u^2,
+//! `mul_f64` 3 u^2, `div` 15 u^2 + 56 u^3, each relative to the result,
+//! wherever nothing overflows or underflows.
 
 use super::float::{fast_two_sum, two_diff, two_prod, two_sum};
 

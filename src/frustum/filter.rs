@@ -18,10 +18,8 @@
 //! |g~ - g| <= 9.2 u scale, plus underflow, which [`FLOOR`] covers.
 //! With the identity pose 5.1 u scale.
 //!
-//! A double-double evaluation of the same expression, with the slope to 106
-//! bits, is within 60 u^2 scale: at most 6 operations deep, each with a
-//! relative error of at most 5 u^2 (15 u^2 for the slope) in terms that add up
-//! to scale.
+//! The double-double values of [`super::precise`] are within 60 u^2 scale; the
+//! count is there.
 //!
 //! The *threshold* is T = 2^-46 scale + FLOOR = 128 u scale + FLOOR. So
 //! |g~| > T means:
@@ -312,8 +310,11 @@ impl Filter {
         self.side = (RELATIVE * constant + FLOOR, RELATIVE * factor);
         let reach = self.near.abs().max(self.far.abs());
         self.depth = (RELATIVE * reach + FLOOR, RELATIVE * z);
-        // Below it every value stays under 2^481, so that products of two and
-        // the splitting of any operand cannot overflow.
+        // Below it the part of a value that changes with the point stays under
+        // 2^480, so that of faces with values of both signs no value reaches
+        // 2^482: products of two do not overflow, nor do any operand's halves.
+        // A face far from all such points may have values up to 2^602, of one
+        // sign, which nothing multiplies.
         self.limit = exp2(480) / factor.max(z).max(1.0);
     }
 
@@ -339,7 +340,8 @@ impl Filter {
 
     /// The finest unit such that points on its multiples, as far out as a few
     /// times the frustum's size, have values of at most 25 bits: then the
-    /// values and the products of two are exact.
+    /// values and the products of two are exact. `None` also where such products
+    /// could underflow.
     fn find_lattice(&self, shape: &Shape, slopes: &[Dd; 4]) -> Option<Lattice> {
         if self.limit == 0.0 || !slopes_exact(shape, slopes) {
             return None;
@@ -369,7 +371,7 @@ impl Filter {
         // lowest bit of a value = min(unit + axes, constants) + slopes >= top - 25
         let unit = top - 25 - slopes - axes;
         let coarsest = constants.min(origin.map_or(constants, |o| o + axes));
-        if coarsest + slopes < top - 25 || !(-500..=400).contains(&unit) {
+        if coarsest + slopes < top - 25 || !(-500..=400).contains(&unit) || top < -475 {
             return None;
         }
         Some(Lattice {

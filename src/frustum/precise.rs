@@ -6,6 +6,19 @@
 //! faces are evaluated side by side. The rounded value goes straight through;
 //! what each of its operations lost is computed beside it, exactly for sums
 //! and products, and added at the end.
+//!
+//! # The error bound
+//! Only what is added beside the rounded value is rounded; each such sum or
+//! product is u times something, so its rounding is u^2 times that. With X =
+//! A_x S, Z = A_z S (see [`super::filter`]) and W = Z + |z_near|, in u^2:
+//! ```text
+//! coordinate   products 3, sums of the rests 2 + 2 + 2, all together 4     13 X, 13 Z
+//! depth        w_rest + z_low 2, times slope 2, rest w 1, sums 3 + 4, the
+//!              slope's rest times those of w 2, the slope itself 15        29 |m| W
+//! value        more + c_low, - low, + rest       2 + 2 + 3 X, 1 + 1 + 2 |n|, 4 + 5 |m| W
+//! ```
+//! That is 20 X + 4 |n| + 51 |m| W, below 60 u^2 scale. With the identity pose
+//! the coordinates are exact.
 
 use super::Shape;
 use crate::exact::double_double::Dd;
@@ -68,8 +81,8 @@ impl Precise {
         let far = shape.far().map_or(near.z, |far| far.z);
         Precise {
             rows: [
-                row(2, near.z, level),
-                row(2, far, level),
+                row(2, near.z + 0.0, level),
+                row(2, far + 0.0, level),
                 side(0),
                 side(1),
                 side(2),

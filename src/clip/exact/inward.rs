@@ -2,10 +2,12 @@
 //!
 //! Candidates are taken in the order of their distance from the correctly
 //! rounded point, in representable steps summed over the coordinates, then by
-//! coordinates: a function of the exact point and the frustum alone. All have
-//! every coordinate within 2 ulp of the exact one. One step from the rounded
-//! value always is, where the spacing does not change; for the rest, and for
-//! two and more steps, the distance is compared exactly.
+//! coordinates: first those at most one step away in each coordinate, if all
+//! three are evenly spaced there, then all. That order is a function of the
+//! exact point and the frustum alone. All have every coordinate within 2 ulp of
+//! the exact one. One step from the rounded value always is, where the spacing
+//! does not change; for the rest, and for two and more steps, the distance is
+//! compared exactly.
 
 use super::points::ExactPoint;
 use super::staged::Staged;
@@ -137,11 +139,14 @@ fn within_two_ulp<T: Real>(exact: &ExactPoint, k: usize, value: T) -> bool {
             _ => low = low.next_up(),
         }
     }
-    // On a representable value, its own ulp: the spacing away from zero.
-    let ulp = if low < T::ZERO && exact.order(k, low.to_f64()) == Ordering::Equal {
-        low.to_f64() - low.next_down().to_f64()
+    // On a representable value, its own ulp: the spacing away from zero, where
+    // there is a value.
+    let (below, above) = (low.next_down(), low.next_up());
+    let away_is_below = low < T::ZERO && exact.order(k, low.to_f64()) == Ordering::Equal;
+    let ulp = if (away_is_below && below.is_finite()) || !above.is_finite() {
+        low.to_f64() - below.to_f64()
     } else {
-        low.next_up().to_f64() - low.to_f64()
+        above.to_f64() - low.to_f64()
     };
     exact.distance_order(k, value.to_f64(), 2.0 * ulp) != Ordering::Greater
 }

@@ -299,7 +299,9 @@ fn round<T: Real>(v: Dd, error: f64) -> Option<T> {
         (low, high) = (low.next_down(), high.next_up());
     }
     let (low, high) = (T::from_f64(low), T::from_f64(high));
-    (low == high).then_some(low)
+    // By bits: the sign of a zero must be certain too.
+    let bits = |v: T| v.to_f64().to_bits();
+    (bits(low) == bits(high)).then_some(low)
 }
 
 /// A crossing as ratios of integers.

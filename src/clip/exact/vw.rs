@@ -17,8 +17,11 @@
 //! With both values of a face within e of the exact ones, p and q of opposite
 //! signs, `p~/(p~ - q~)` differs from `p/(p - q)` by at most e / |p~ - q~|
 //! (put the difference over one denominator). Rounding of the difference, its
-//! reciprocal and the product add less than 4 u. The code takes a whole
-//! threshold for e, which is 13 times what the values can be off, and 2^-48.
+//! reciprocal and the product add less than 4 u, the face's number in the last
+//! three bits at most 7 units of 2 u. The code takes a whole threshold for e,
+//! which is 13 times what the values can be off, and 2^-48 = 32 u. Near and far
+//! values of the identity pose have a relative error of u instead, which moves
+//! t by u / 2 at most.
 
 use super::decide::{At, Decision};
 use super::staged::Staged;
