@@ -36,7 +36,7 @@ TESTS = [
     ("verify_families", []),
     ("frusta", ["clip::", "exact::", "frustum::"]),
     ("clippers", []),
-    ("mutants", []),
+    ("signs", []),
 ]
 SECONDS = 300
 
