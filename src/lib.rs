@@ -37,11 +37,13 @@
 //! For every finite segment, exact arithmetic (the default) gives:
 //!
 //! - **G1** the exact [`Class`] and face sets;
-//! - **G2** unclipped ends bit for bit, and exact `z` on near and far in the identity pose;
+//! - **G2** unclipped ends bit for bit; in the identity pose a hit on near or far has that
+//!   face's `z`, rounded to the segment's type (`Inward`: if a point with it is inside);
 //! - **G3** points to the [`Accuracy`] asked for;
-//! - **G4** with [`Accuracy::Inward`], points that are in the frustum;
+//! - **G4** with [`Accuracy::Inward`], points that are in the frustum, where any
+//!   representable point near is (`PartEnd::inward` tells);
 //! - **G5** the swapped result for swapped ends, bit for bit;
-//! - **G6** `Inward` results that clip to themselves;
+//! - **G6** `Inward` results, `inward` at both ends, that clip to themselves;
 //! - **G8** the same bits with every algorithm, on every platform and number of
 //!   threads, with SIMD or without: no fused multiply-add is used.
 //!

@@ -119,3 +119,24 @@ fn nearest_needs_integers_for_ties() {
     let (_, nearest) = counts(&symmetric(), &s, Accuracy::Nearest);
     assert!(nearest.integers > 0, "{nearest:?}");
 }
+
+/// Boxes have faces at zero, where no bound of an error proves a sign.
+#[test]
+fn a_face_at_zero_needs_no_integers() {
+    let unit_box = Shape::Finite {
+        near: EndRect::new(0.0, 0.0, 1.0, 0.0, 1.0),
+        far: EndRect::new(1.0, 0.0, 1.0, 0.0, 1.0),
+    };
+    let frustum = Frustum::new(Pose::IDENTITY, unit_box).unwrap();
+    for accuracy in [Accuracy::Fast, Accuracy::Nearest, Accuracy::Inward] {
+        for s in [
+            Segment::new([-1.0, 0.3, 0.3], [0.7, 0.26, 0.77]),
+            Segment::new([0.3, -1.1, 0.3], [0.77, 2.3, 0.6]),
+            Segment::new([0.3, 0.3, -1.1], [0.77, 0.6, 2.3]),
+        ] {
+            let (class, counts) = counts(&frustum, &s, accuracy);
+            assert_eq!((class, counts.integers), (Class::Cross, 0), "{accuracy:?}");
+            assert_eq!(counts.filter_failures, 0, "{accuracy:?}");
+        }
+    }
+}

@@ -1,7 +1,8 @@
 //! Projection reduction onto two planes ("V/W").
 //!
 //! # Source
-//! The method that reduces clipping by a frustum to clipping twice in a plane,
+//! "View Frustum Culling Geometric Algorithm" (视锥体裁剪几何算法研究, in Chinese):
+//! the method that reduces clipping by a frustum to clipping twice in a plane,
 //! by the frustum's projections on its two symmetry planes: the trapezoids TV
 //! (in `x, z`) and TW (in `y, z`).
 //!

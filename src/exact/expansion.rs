@@ -34,6 +34,10 @@ const LEAST: f64 = 2.350988701644575e-38;
 /// 2^150.
 const MOST: f64 = 1.42724769270596e45;
 
+/// A result would have more than [`CAPACITY`] components.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct NoRoom;
+
 /// An exact sum of doubles.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Expansion {
@@ -51,8 +55,8 @@ impl Expansion {
         &self.parts[..self.len]
     }
 
-    /// Adds one double. `None` if there is no room.
-    fn grow(&mut self, value: f64) -> Option<()> {
+    /// Adds one double.
+    fn grow(&mut self, value: f64) -> Result<(), NoRoom> {
         let mut carry = value;
         let mut kept = 0;
         for i in 0..self.len {
@@ -65,10 +69,10 @@ impl Expansion {
         }
         self.len = kept;
         if carry != 0.0 {
-            *self.parts.get_mut(kept)? = carry;
+            *self.parts.get_mut(kept).ok_or(NoRoom)? = carry;
             self.len += 1;
         }
-        Some(())
+        Ok(())
     }
 
     /// The same value in as few components as possible; the last one then is
@@ -112,6 +116,8 @@ impl Expansion {
 }
 
 impl Number for Expansion {
+    type NoRoom = NoRoom;
+
     fn from_f64(value: f64) -> Self {
         let mut e = Expansion::ZERO;
         e.parts[0] = value;
@@ -129,19 +135,19 @@ impl Number for Expansion {
         e
     }
 
-    fn add(&self, other: &Self) -> Option<Self> {
+    fn add(&self, other: &Self) -> Result<Self, NoRoom> {
         let mut sum = *self;
         for &part in other.parts() {
             sum.grow(part)?;
         }
         sum.compress();
-        Some(sum)
+        Ok(sum)
     }
 
-    fn mul(&self, other: &Self) -> Option<Self> {
+    fn mul(&self, other: &Self) -> Result<Self, NoRoom> {
         // Many components: the big integers are faster.
         if 2 * self.len * other.len > CAPACITY {
-            return None;
+            return Err(NoRoom);
         }
         let mut product = Expansion::ZERO;
         for &a in self.parts() {
@@ -152,7 +158,7 @@ impl Number for Expansion {
             }
         }
         product.compress();
-        Some(product)
+        Ok(product)
     }
 
     fn neg(mut self) -> Self {
@@ -167,6 +173,22 @@ impl Number for Expansion {
             None => Ordering::Equal,
             Some(&top) if top > 0.0 => Ordering::Greater,
             Some(_) => Ordering::Less,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn zeros_have_no_components() {
+        for zero in [
+            Expansion::from_f64(0.0),
+            Expansion::from_f64(-0.0),
+            Expansion::difference(3.0, 3.0),
+        ] {
+            assert_eq!((zero.len, zero.sign()), (0, Ordering::Equal));
         }
     }
 }

@@ -4,6 +4,9 @@
 //! wherever nothing overflows and no product's low part underflows. No fused
 //! multiply-add: the same bits on every machine.
 
+#[cfg(all(target_arch = "x86", not(target_feature = "sse2")))]
+compile_error!("x87 registers hold more bits than a double: frusta needs SSE2 on 32-bit x86");
+
 use std::ops::{Add, Mul, Sub};
 use wide::f64x2;
 

@@ -13,23 +13,25 @@ pub(crate) mod float;
 use std::cmp::Ordering;
 
 /// A number type in which a polynomial can be evaluated without error, or not
-/// at all: `None` where the type has no room for the result.
+/// at all.
 pub(crate) trait Number: Sized {
+    /// Why there is no result: `Infallible` for a type that has room for all.
+    type NoRoom;
     /// The value of a double.
     fn from_f64(value: f64) -> Self;
     /// `a - b` of two doubles.
     fn difference(a: f64, b: f64) -> Self;
     /// The sum.
-    fn add(&self, other: &Self) -> Option<Self>;
+    fn add(&self, other: &Self) -> Result<Self, Self::NoRoom>;
     /// The product.
-    fn mul(&self, other: &Self) -> Option<Self>;
+    fn mul(&self, other: &Self) -> Result<Self, Self::NoRoom>;
     /// The additive inverse.
     fn neg(self) -> Self;
     /// The order to zero.
     fn sign(&self) -> Ordering;
 
     /// `self - other`.
-    fn sub(&self, other: Self) -> Option<Self> {
+    fn sub(&self, other: Self) -> Result<Self, Self::NoRoom> {
         self.add(&other.neg())
     }
 }

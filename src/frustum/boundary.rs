@@ -19,7 +19,7 @@ use crate::exact::Number;
 use crate::math::Vec3;
 
 /// The frame coordinate `axes[k] . (p - origin)`.
-fn frame_coordinate<N: Number>(frustum: &Frustum, k: usize, p: Vec3<f64>) -> Option<N> {
+fn frame_coordinate<N: Number>(frustum: &Frustum, k: usize, p: Vec3<f64>) -> Result<N, N::NoRoom> {
     let pose = frustum.pose();
     let mut sum: Option<N> = None;
     for j in 0..3 {
@@ -38,24 +38,28 @@ fn frame_coordinate<N: Number>(frustum: &Frustum, k: usize, p: Vec3<f64>) -> Opt
             Some(sum) => sum.add(&term)?,
         });
     }
-    Some(sum.unwrap_or_else(|| N::from_f64(0.0)))
+    Ok(sum.unwrap_or_else(|| N::from_f64(0.0)))
 }
 
-/// The value of a face's boundary function, exactly; `None` if `N` has no room
-/// for it. An infinite frustum has no far face: there it is 1.
-pub(crate) fn boundary<N: Number>(frustum: &Frustum, face: Face, p: Vec3<f64>) -> Option<N> {
+/// The value of a face's boundary function, exactly, if `N` has room for it. An
+/// infinite frustum has no far face: there it is 1.
+pub(crate) fn boundary<N: Number>(
+    frustum: &Frustum,
+    face: Face,
+    p: Vec3<f64>,
+) -> Result<N, N::NoRoom> {
     let shape = frustum.shape();
     let near = shape.near();
     let flip = shape.direction().sign() < 0.0;
     let signed = |v: N, negative: bool| if negative { v.neg() } else { v };
     let z = || frame_coordinate::<N>(frustum, 2, p);
     let (axis, side) = match face {
-        Face::Near => return Some(signed(z()?.add(&N::from_f64(-near.z))?, flip)),
+        Face::Near => return Ok(signed(z()?.add(&N::from_f64(-near.z))?, flip)),
         Face::Far => {
             let Some(far) = shape.far() else {
-                return Some(N::from_f64(1.0));
+                return Ok(N::from_f64(1.0));
             };
-            return Some(signed(z()?.add(&N::from_f64(-far.z))?, !flip));
+            return Ok(signed(z()?.add(&N::from_f64(-far.z))?, !flip));
         }
         Face::Left => (0, 0),
         Face::Right => (0, 1),
@@ -87,5 +91,5 @@ pub(crate) fn boundary<N: Number>(frustum: &Frustum, face: Face, p: Vec3<f64>) -
             }
         }
     };
-    Some(signed(low, side % 2 == 1))
+    Ok(signed(low, side % 2 == 1))
 }

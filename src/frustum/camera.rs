@@ -185,19 +185,19 @@ impl Camera {
         match self.projection {
             Projection::Perspective { fovy, aspect } => {
                 let y = libm::tan(0.5 * fovy);
-                let x = product(y, aspect, "the slope tan(fovy / 2) * aspect")?;
+                let x = factor(y * aspect, false, "the slope tan(fovy / 2) * aspect")?;
                 let slopes = Rect::centred(x, y);
                 self.grown(scaled(slopes, self.near, "the near rectangle")?, slopes)
             }
             Projection::OffAxis { rect } => {
                 let near = self.near;
                 let slopes = map(rect, |side| {
-                    checked(side / near, side == 0.0, "a slope, rect / near,")
+                    factor(side / near, side == 0.0, "a slope, rect / near,")
                 })?;
                 self.grown(rect, slopes)
             }
             Projection::Orthographic { height, aspect } => {
-                let y = product(height, 0.5, "half the height")?;
+                let y = factor(height * 0.5, false, "half the height")?;
                 let x = product(y, aspect, "half the width")?;
                 self.straight(Rect::centred(x, y))
             }
@@ -306,6 +306,14 @@ fn map(
 /// `a * b`, unless it leaves the range of doubles.
 fn product(a: f64, b: f64, what: &'static str) -> Result<f64, FrustumError> {
     checked(a * b, a == 0.0 || b == 0.0, what)
+}
+
+/// As [`checked`], for what is multiplied further: a subnormal has lost bits.
+fn factor(value: f64, may_be_zero: bool, what: &'static str) -> Result<f64, FrustumError> {
+    if value != 0.0 && value.abs() < f64::MIN_POSITIVE {
+        return Err(FrustumError::Underflow { what });
+    }
+    checked(value, may_be_zero, what)
 }
 
 /// Refuses what became infinite, and zero where none is due.

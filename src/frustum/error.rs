@@ -21,7 +21,7 @@ pub enum FrustumError {
     },
     /// A lower bound is above its upper bound.
     Inverted {
-        /// Which end (`near`, `far.z` for the far end, `slopes`).
+        /// Which rectangle: `near`, `far`, `slopes`, `rect` (a camera's), `window`.
         end: &'static str,
         /// Which pair of bounds.
         what: &'static str,
@@ -81,7 +81,7 @@ pub enum FrustumError {
         /// What was computed.
         what: &'static str,
     },
-    /// A computed number that is not zero is too small for a double.
+    /// A computed number that is not zero is too small for a double to hold in full.
     Underflow {
         /// What was computed.
         what: &'static str,

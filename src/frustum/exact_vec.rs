@@ -70,19 +70,20 @@ pub(super) fn cross(a: &Dyadic3, b: &Dyadic3) -> Dyadic3 {
 }
 
 /// The vector times the power of two that brings its largest coordinate to
-/// `1/2 <= |x| < 1`, and the exponent of that power; `None` for the zero
-/// vector. Each coordinate is rounded once.
-pub(super) fn normalised_by_power(v: &Dyadic3) -> Option<(Vec3<f64>, i32)> {
+/// `1/2 <= |x| < 1`, its length, and the exponent of that power; `None` for the
+/// zero vector. Each coordinate is rounded once; the length is within 1.5 u,
+/// because its square, too, is rounded once.
+pub(super) fn normalised_by_power(v: &Dyadic3) -> Option<(Vec3<f64>, f64, i32)> {
     let shift = -v.iter().filter_map(Dyadic::top).max()?;
     let [x, y, z] = [0, 1, 2].map(|i| v[i].scaled(shift));
-    Some((Vec3::new(x, y, z), shift))
+    let length = dot(v, v).scaled(2 * shift).sqrt();
+    Some((Vec3::new(x, y, z), length, shift))
 }
 
 /// The unit vector in this direction, each coordinate within 4 ulp; `None` for
 /// the zero vector. A vector along a coordinate axis gives exactly 1 or -1.
 pub(super) fn unit(v: &Dyadic3) -> Option<Vec3<f64>> {
-    let (v, _) = normalised_by_power(v)?;
-    let length = v.dot(v).sqrt();
+    let (v, length, _) = normalised_by_power(v)?;
     Some(Vec3::new(v.x / length, v.y / length, v.z / length))
 }
 

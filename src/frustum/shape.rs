@@ -1,6 +1,6 @@
 //! A frustum in its own frame.
 
-use super::FrustumError;
+use super::{Face, FrustumError};
 use crate::math::Rect;
 
 /// A rectangle across the frame's `z` axis: one end of a frustum.
@@ -92,6 +92,21 @@ impl Shape {
         }
     }
 
+    /// The frame coordinate, by axis, that all points of a face have in common.
+    pub(crate) fn level(&self, face: Face) -> Option<(usize, f64)> {
+        let i = match face {
+            Face::Near => return Some((2, self.near().z)),
+            Face::Far => return self.far().map(|far| (2, far.z)),
+            _ => face as usize - 2,
+        };
+        let at = self.near().rect.to_array()[i];
+        let level = match self {
+            Shape::Finite { far, .. } => far.rect.to_array()[i] == at,
+            Shape::Infinite { slopes, .. } => slopes.to_array()[i] == 0.0,
+        };
+        level.then_some((i / 2, at))
+    }
+
     /// The shape scaled about its frame's origin; slopes stay.
     pub(super) fn scaled(&self, scale: f64) -> Shape {
         let end = |e: EndRect| {
@@ -120,9 +135,9 @@ impl Shape {
     /// # Errors
     /// The first thing that is wrong, by name.
     pub fn validate(&self) -> Result<(), FrustumError> {
-        let (near, far, names) = match self {
-            Shape::Finite { near, far } => (near, far.rect, FINITE_NAMES),
-            Shape::Infinite { near, slopes, .. } => (near, *slopes, INFINITE_NAMES),
+        let (near, far, other, names) = match self {
+            Shape::Finite { near, far } => (near, far.rect, "far", FINITE_NAMES),
+            Shape::Infinite { near, slopes, .. } => (near, *slopes, "slopes", INFINITE_NAMES),
         };
         FrustumError::check_finite(names[0], near.z)?;
         if let Shape::Finite { far, .. } = self {
@@ -138,7 +153,7 @@ impl Shape {
         for (i, what) in ["left..right", "bottom..top"].into_iter().enumerate() {
             let (n, f) = (near.rect.to_array(), far.to_array());
             let (n, f) = ((n[2 * i], n[2 * i + 1]), (f[2 * i], f[2 * i + 1]));
-            for (end, (low, high)) in [("near", n), (names[1], f)] {
+            for (end, (low, high)) in [("near", n), (other, f)] {
                 if low > high {
                     return Err(FrustumError::Inverted {
                         end,

@@ -192,7 +192,7 @@ fn right_angle(a: &Edge, b: &Edge) -> Result<(), FrustumError> {
 /// The edge times a power of two, and its own length in that scale.
 fn axis(edge: &Edge) -> Result<(Vec3<f64>, f64), FrustumError> {
     // `None` is a zero vector, which is no edge.
-    let (axis, _) = normalised_by_power(&edge.vector).ok_or(FrustumError::DependentAxes)?;
+    let (axis, _, _) = normalised_by_power(&edge.vector).ok_or(FrustumError::DependentAxes)?;
     let extent: Dyadic = dot(&exact(axis), &edge.vector);
     let extent = extent.to_f64();
     if extent.is_infinite() {

@@ -1,6 +1,7 @@
 //! The two trapezoids that a frustum projects to, and clipping by one.
 //!
-//! Source: the projection-reduction ("V/W") method for view frusta. In the
+//! Source: "View Frustum Culling Geometric Algorithm" (视锥体裁剪几何算法研究, in Chinese),
+//! the projection-reduction ("V/W") method. In the
 //! computing frame ([`Pose`](crate::Pose)) the plane V holds `x` and `z`, the
 //! plane W holds `y` and `z`. The frustum's projections on them are the
 //! trapezoids TV and TW; a point is in the frustum exactly if its projections

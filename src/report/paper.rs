@@ -1,7 +1,7 @@
 //! The paper's table, made again.
 //!
 //! # Source
-//! "Research on a geometric algorithm of view frustum culling" (in Chinese)
+//! "View Frustum Culling Geometric Algorithm" (视锥体裁剪几何算法研究, in Chinese)
 //! clips 78 singular samples 100,000 times each in the standard frame, gives the
 //! run times of Liang-Barsky, the general algorithm (six planes) and projection
 //! reduction (V/W) as 4243 : 4228 : 4212, and says that the general algorithm

@@ -1,7 +1,7 @@
 //! The 78 singular samples, and 26 near misses.
 //!
-//! The source: "Research on a geometric algorithm of view frustum culling" (in
-//! Chinese) tests with 78 groups of segments "including the singular states of
+//! The source: "View Frustum Culling Geometric Algorithm" (视锥体裁剪几何算法研究, in Chinese)
+//! tests with 78 groups of segments "including the singular states of
 //! the line with the frustum's vertices, edges and faces", classified by the
 //! number of intersection points, the direction of crossing and the position
 //! while the segment slides along its line. It lists none of them. The derivation

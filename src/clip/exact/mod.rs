@@ -1,7 +1,8 @@
 //! The exact tier: classes and sets by exact signs, points by construction.
 //!
 //! ```text
-//! staged    the predicates, in stages: filter, lattice, expansions, integers
+//! staged    the predicates, in stages: lattice, filter, double-double,
+//!           expansions, integers
 //! decide    a span and the predicates give class, sets and where the ends are
 //! points    the ends' parameters and coordinates, to the accuracy asked for
 //! vw        V/W with certificates instead, where rounded values prove enough

@@ -3,7 +3,8 @@
 //! The same points, bit for bit, as one at a time in [`super::points`], whose
 //! rule and error bound this follows. Where an end was not clipped its lane
 //! computes something meaningless, and a select puts the segment's own end
-//! there: which ends are clipped cannot be predicted.
+//! there: which ends are clipped cannot be predicted. The parameters are in
+//! order: certificates and the lattice prove gaps of more than rounding closes.
 
 use crate::clip::{Class, Part, PartEnd, SegmentClip};
 use crate::frustum::FaceSet;
@@ -107,16 +108,11 @@ pub(super) fn assemble<T: Real>(
         faces: faces[i],
         inward: !clipped[i],
     };
-    let entry = end(0);
-    let mut exit = end(1);
-    if exit.t < entry.t {
-        exit.t = entry.t;
-    }
     SegmentClip {
         class,
         part: Some(Part {
-            entry,
-            exit,
+            entry: end(0),
+            exit: end(1),
             coplanar,
         }),
     }

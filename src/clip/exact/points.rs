@@ -15,6 +15,8 @@
 //!
 //! *Nearest* evaluates in double-double with an error bound, and rounds where
 //! both ends of the error interval round alike (Ziv's test); else in integers.
+//! A coordinate that the face itself says is not evaluated: boxes have faces at
+//! zero, where no error bound proves the sign.
 
 use super::decide::{At, Decision};
 use super::inward;
@@ -180,7 +182,7 @@ fn exact_step(staged: &mut Staged<'_>, face: Face) -> Step {
         return Step::new(a.estimate().abs(), b.estimate().abs(), &staged.segment);
     }
     let [a, b] = staged.integers(face).map(Dyadic::abs);
-    let order = sum(&a, &b.clone().neg()).sign();
+    let order = (&a - &b).sign();
     let from = match order {
         Ordering::Less => 0,
         Ordering::Equal => lesser(&staged.segment),
@@ -188,12 +190,8 @@ fn exact_step(staged: &mut Staged<'_>, face: Face) -> Step {
     };
     Step {
         from,
-        tau: [&a, &b][from].round_quotient(&sum(&a, &b)),
+        tau: [&a, &b][from].round_quotient(&(&a + &b)),
     }
-}
-
-fn sum(a: &Dyadic, b: &Dyadic) -> Dyadic {
-    a.add(b).unwrap_or_else(|| a.clone())
 }
 
 fn fast<T: Real>(staged: &mut Staged<'_>, face: Face, faces: FaceSet) -> (T, Vec3<T>) {
@@ -276,7 +274,13 @@ fn nearest_double_double<T: Real>(staged: &Staged<'_>, face: Face) -> Option<(T,
     } else {
         (end, start)
     };
+    let level = filter.identity.then(|| staged.frustum.shape().level(face));
     let coordinate = |k: usize| {
+        if let Some(Some((axis, at))) = level
+            && axis == k
+        {
+            return Some(T::from_f64(at + 0.0));
+        }
         if from[k] == to[k] {
             return Some(T::from_f64(from[k] + 0.0));
         }
@@ -316,12 +320,12 @@ impl ExactPoint {
         let [a, b] = staged.integers(face).map(Dyadic::abs);
         let Segment { start, end } = staged.segment;
         let numerators = [0, 1, 2].map(|k| {
-            let from = product(&Dyadic::from_f64(start[k]), &b);
-            sum(&from, &product(&Dyadic::from_f64(end[k]), &a))
+            let [from, to] = [start[k], end[k]].map(Dyadic::from);
+            &(&from * &b) + &(&to * &a)
         });
         ExactPoint {
             numerators,
-            denominator: sum(&a, &b),
+            denominator: &a + &b,
             at: a,
         }
     }
@@ -337,19 +341,14 @@ impl ExactPoint {
 
     /// The sign of `|coordinate k - value| - distance`.
     pub(super) fn distance_order(&self, k: usize, value: f64, distance: f64) -> Ordering {
-        let value = product(&Dyadic::from_f64(-value), &self.denominator);
-        let gap = sum(&self.numerators[k], &value).abs();
-        let distance = product(&Dyadic::from_f64(-distance), &self.denominator);
-        sum(&gap, &distance).sign()
+        let value = &Dyadic::from(value) * &self.denominator;
+        let distance = &Dyadic::from(distance) * &self.denominator;
+        (&(&self.numerators[k] - &value).abs() - &distance).sign()
     }
 
     /// The order of coordinate k to a value.
     pub(super) fn order(&self, k: usize, value: f64) -> Ordering {
-        let value = product(&Dyadic::from_f64(-value), &self.denominator);
-        sum(&self.numerators[k], &value).sign()
+        let value = &Dyadic::from(value) * &self.denominator;
+        (&self.numerators[k] - &value).sign()
     }
-}
-
-fn product(a: &Dyadic, b: &Dyadic) -> Dyadic {
-    a.mul(b).unwrap_or_else(|| a.clone())
 }

@@ -1,8 +1,8 @@
 //! The predicates in stages, each of which hands on what it cannot settle.
 //!
-//! 1. *Filter*: floating point with an error bound ([`Filter`]).
-//! 2. *Lattice*: on coarse coordinates floating point makes no error at all,
+//! 1. *Lattice*: on coarse coordinates floating point makes no error at all,
 //!    so that touching is decided as fast as the rest. CAD data lives there.
+//! 2. *Filter*: floating point with an error bound ([`Filter`]).
 //! 3. *Double-double*: the filter again with 2^-53 of its error.
 //! 4. *Expansions*, inside the range of exponents where they are exact, while
 //!    they stay short: exact zeros off the lattice.
@@ -41,7 +41,7 @@ struct Known {
     on: u8,
 }
 
-/// The product of an error bound and a value may underflow; this does not.
+/// Products of a double-double bound and a value may underflow; this does not.
 const TINY: f64 = 1e-300;
 
 impl<'a> Staged<'a> {
@@ -100,18 +100,21 @@ impl<'a> Staged<'a> {
 
     /// The sign of a face's boundary function at any point.
     pub(crate) fn sign_at(&mut self, face: Face, p: Vec3<f64>, values: &Values) -> Ordering {
-        let filter = self.filter();
-        if let Some(sign) = filter.sign(face, values) {
-            return sign;
+        match self.filter().sign(face, values) {
+            Some(sign) => sign,
+            None => self.sign_beyond_filter(face, p, values),
         }
-        self.failed = true;
+    }
+
+    fn sign_beyond_filter(&mut self, face: Face, p: Vec3<f64>, values: &Values) -> Ordering {
+        let filter = self.filter();
         if let Some(sign) = filter.precise_sign(face, p, values) {
             self.counts.double_doubles += 1;
             return sign;
         }
-        if self.filter().expansions
+        if filter.expansions
             && fits(p)
-            && let Some(value) = boundary::<Expansion>(self.frustum, face, p)
+            && let Ok(value) = boundary::<Expansion>(self.frustum, face, p)
         {
             self.counts.expansions += 1;
             return value.sign();
@@ -127,8 +130,8 @@ impl<'a> Staged<'a> {
             return None;
         }
         let values = [
-            boundary(self.frustum, face, start)?,
-            boundary(self.frustum, face, end)?,
+            boundary(self.frustum, face, start).ok()?,
+            boundary(self.frustum, face, end).ok()?,
         ];
         self.counts.expansions += 1;
         Some(values)
@@ -142,8 +145,8 @@ impl<'a> Staged<'a> {
     }
 
     fn integer(&self, face: Face, p: Vec3<f64>) -> Dyadic {
-        // Integers have room for everything, so the fallback is never taken.
-        boundary(self.frustum, face, p).unwrap_or_else(|| Dyadic::from_f64(0.0))
+        let Ok(value) = boundary(self.frustum, face, p);
+        value
     }
 
     /// `f_a(q) f_b(p) - f_a(p) f_b(q)` from rounded values, if certain.
@@ -161,11 +164,12 @@ impl<'a> Staged<'a> {
         }
         // Each value is within an eighth of its threshold, and T >= 128 u g
         // covers the products' own rounding; the sum below is four times both.
+        // It does not underflow: T >= FLOOR = 2^-500.
         let t = |face, v: &Values| filter.threshold(face, v.size);
         let (tpa, tqa) = (t(a, p), t(a, q));
         let (tpb, tqb) = (t(b, p), t(b, q));
         let bound = tqa * pb.abs() + tpb * qa.abs() + tpa * qb.abs() + tqb * pa.abs();
-        let bound = bound + (tqa * tpb + tpa * tqb) + TINY;
+        let bound = bound + (tqa * tpb + tpa * tqb);
         if cross.abs() > bound {
             cross.partial_cmp(&0.0)
         } else {
@@ -205,13 +209,14 @@ impl<'a> Staged<'a> {
         }
         if let Some([pa, qa]) = self.expansions(a)
             && let Some([pb, qb]) = self.expansions(b)
-            && let Some(cross) = cross(&pa, &qa, &pb, &qb)
+            && let Ok(cross) = cross(&pa, &qa, &pb, &qb)
         {
             return cross.sign();
         }
         let [pa, qa] = self.integers(a);
         let [pb, qb] = self.integers(b);
-        cross(&pa, &qa, &pb, &qb).map_or(Ordering::Equal, |c| c.sign())
+        let Ok(cross) = cross(&pa, &qa, &pb, &qb);
+        cross.sign()
     }
 
     fn learn(&mut self, face: Face, end: End) {
@@ -219,8 +224,11 @@ impl<'a> Staged<'a> {
         let sign = if self.lattice {
             let g = values.of(face as usize);
             g.partial_cmp(&0.0).unwrap_or(Ordering::Equal)
+        } else if let Some(sign) = self.filter().sign(face, &values) {
+            sign
         } else {
-            self.sign_at(face, self.point(end), &values)
+            self.failed = true;
+            self.sign_beyond_filter(face, self.point(end), &values)
         };
         let known = &mut self.known[end as usize];
         let bit = 1 << face as u8;
@@ -239,7 +247,7 @@ impl<'a> Staged<'a> {
 }
 
 /// `qa pb - pa qb`.
-fn cross<N: Number>(pa: &N, qa: &N, pb: &N, qb: &N) -> Option<N> {
+fn cross<N: Number>(pa: &N, qa: &N, pb: &N, qb: &N) -> Result<N, N::NoRoom> {
     qa.mul(pb)?.sub(pa.mul(qb)?)
 }
 
