@@ -191,6 +191,28 @@ mod serde {
         // Integers are numbers too.
         let frustum: Frustum = serde_json::from_str(&FINITE.replace(".0", "")).unwrap();
         assert_eq!(serde_json::to_string(&frustum).unwrap(), FINITE);
+        // And so is a direction with a point.
+        let frustum: Frustum = serde_json::from_str(&INFINITE.replace(":-1}", ":-1.0}")).unwrap();
+        assert_eq!(serde_json::to_string(&frustum).unwrap(), INFINITE);
+    }
+
+    #[test]
+    fn no_other_field_is_taken_at_any_depth() {
+        for (text, near, with) in [
+            (FINITE, r#""near":{"#, r#""near":{"rihgt":1,"#),
+            (FINITE, r#""far":{"#, r#""far":{"depth":1,"#),
+            (INFINITE, r#""slopes":{"#, r#""slopes":{"z":1,"#),
+        ] {
+            let changed = text.replace(near, with);
+            assert_ne!(changed, text);
+            let error = serde_json::from_str::<Frustum>(&changed).unwrap_err();
+            let error = error.to_string();
+            assert!(error.contains("unknown field `"), "{error}");
+            assert!(
+                error.contains("`left`, `right`, `bottom`, `top`"),
+                "{error}"
+            );
+        }
     }
 
     #[test]
@@ -210,8 +232,11 @@ mod serde {
                 serde_json::from_str::<Frustum>(&FINITE.replace(change.0, change.1)).unwrap_err();
             assert!(error.to_string().contains(message), "{error}");
         }
-        let error = serde_json::from_str::<Frustum>(&INFINITE.replace(":-1}", ":2}")).unwrap_err();
-        assert!(error.to_string().contains("it must be 1 or -1"), "{error}");
+        for wrong in [":2}", ":0}", ":-1.5}", ":1e300}"] {
+            let text = INFINITE.replace(":-1}", wrong);
+            let error = serde_json::from_str::<Frustum>(&text).unwrap_err();
+            assert!(error.to_string().contains("it must be 1 or -1"), "{error}");
+        }
     }
 
     proptest! {
