@@ -15,8 +15,17 @@
 //! fields are refused, at every depth. The format needs field names (JSON,
 //! TOML, RON; not `bincode`). Text loses nothing if its reader rounds
 //! correctly: for `serde_json` that is its feature `float_roundtrip`.
+//!
+//! Results have the names of their fields; classes and faces are called as in
+//! [`Class::name`](crate::Class::name) and [`Face::name`]:
+//!
+//! ```json
+//! {"class": "cross", "part": {"entry": {"t": 0, "point": [0, 0, 1], "clipped": false,
+//!   "faces": [], "inward": true}, "exit": {"t": 0.5, "point": [1, 1, 1], "clipped": true,
+//!   "faces": ["right", "top"], "inward": false}, "coplanar": []}}
+//! ```
 
-use crate::frustum::{Direction, EndRect, Frustum, Shape};
+use crate::frustum::{Direction, EndRect, Face, FaceSet, Frustum, Shape};
 use crate::math::{Pose, Rect, Vec3};
 use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
@@ -170,5 +179,18 @@ impl<'de> Deserialize<'de> for Frustum {
             }
         };
         Frustum::new(Pose::new(origin, axes), shape).map_err(D::Error::custom)
+    }
+}
+
+impl Serialize for FaceSet {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_seq(self)
+    }
+}
+
+impl<'de> Deserialize<'de> for FaceSet {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let faces = Vec::<Face>::deserialize(deserializer)?;
+        Ok(faces.into_iter().collect())
     }
 }
