@@ -67,8 +67,8 @@ pub use clip::{
 };
 pub use frustum::{
     Camera, ClipSpace, ClipY, Corners, DepthRange, Deviation, Direction, EndRect, Face, FaceSet,
-    FarCorners, Frustum, FrustumError, MatrixFrustum, MatrixLayout, Plane, Projection, Shape,
-    SixPoints, Trapezoid, TrapezoidEnd, ViewProjection,
+    FaceSetIter, FarCorners, Frustum, FrustumError, MatrixFrustum, MatrixLayout, Plane, Projection,
+    Shape, SixPoints, Trapezoid, TrapezoidEnd, ViewProjection,
 };
 pub use math::{Axis, End, Interval, NonFinite, Pose, Real, Rect, Segment, Vec3};
 

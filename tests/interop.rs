@@ -3,8 +3,8 @@
 #![allow(unused_imports, reason = "each feature uses its own part")]
 
 use frusta::{
-    ClipSpace, Direction, EndRect, Frustum, MatrixLayout, Pose, Rect, Segment, Shape, Vec3,
-    ViewProjection,
+    Accuracy, Class, ClipSpace, Direction, EndRect, Face, FaceSet, Frustum, MatrixLayout, Pose,
+    Rect, Segment, SegmentClip, Shape, StageCounts, Vec3, ViewProjection,
 };
 
 #[cfg(feature = "glam")]
@@ -191,6 +191,28 @@ mod serde {
         // Integers are numbers too.
         let frustum: Frustum = serde_json::from_str(&FINITE.replace(".0", "")).unwrap();
         assert_eq!(serde_json::to_string(&frustum).unwrap(), FINITE);
+        // And so is a direction with a point.
+        let frustum: Frustum = serde_json::from_str(&INFINITE.replace(":-1}", ":-1.0}")).unwrap();
+        assert_eq!(serde_json::to_string(&frustum).unwrap(), INFINITE);
+    }
+
+    #[test]
+    fn no_other_field_is_taken_at_any_depth() {
+        for (text, near, with) in [
+            (FINITE, r#""near":{"#, r#""near":{"rihgt":1,"#),
+            (FINITE, r#""far":{"#, r#""far":{"depth":1,"#),
+            (INFINITE, r#""slopes":{"#, r#""slopes":{"z":1,"#),
+        ] {
+            let changed = text.replace(near, with);
+            assert_ne!(changed, text);
+            let error = serde_json::from_str::<Frustum>(&changed).unwrap_err();
+            let error = error.to_string();
+            assert!(error.contains("unknown field `"), "{error}");
+            assert!(
+                error.contains("`left`, `right`, `bottom`, `top`"),
+                "{error}"
+            );
+        }
     }
 
     #[test]
@@ -210,8 +232,66 @@ mod serde {
                 serde_json::from_str::<Frustum>(&FINITE.replace(change.0, change.1)).unwrap_err();
             assert!(error.to_string().contains(message), "{error}");
         }
-        let error = serde_json::from_str::<Frustum>(&INFINITE.replace(":-1}", ":2}")).unwrap_err();
-        assert!(error.to_string().contains("it must be 1 or -1"), "{error}");
+        for wrong in [":2}", ":0}", ":-1.5}", ":1e300}"] {
+            let text = INFINITE.replace(":-1}", wrong);
+            let error = serde_json::from_str::<Frustum>(&text).unwrap_err();
+            assert!(error.to_string().contains("it must be 1 or -1"), "{error}");
+        }
+    }
+
+    #[test]
+    fn results_read_back_and_are_called_as_in_csv() {
+        let frustum: Frustum = serde_json::from_str(FINITE).unwrap();
+        let segment = Segment::new([0.0, 0.0, 2.0], [4.0, 4.0, 2.0]);
+        let clip = frustum.clip_segment(&segment).unwrap();
+        let text = serde_json::to_string(&clip).unwrap();
+        assert_eq!(
+            text,
+            concat!(
+                r#"{"class":"cross","part":{"entry":{"t":0.0,"point":[0.0,0.0,2.0],"#,
+                r#""clipped":false,"faces":[],"inward":true},"exit":{"t":0.5,"#,
+                r#""point":[2.0,2.0,2.0],"clipped":true,"faces":["right","top"],"#,
+                r#""inward":false},"coplanar":[]}}"#
+            )
+        );
+        assert_eq!(
+            serde_json::from_str::<SegmentClip<f64>>(&text).unwrap(),
+            clip
+        );
+        let outside: SegmentClip<f32> =
+            serde_json::from_str(r#"{"class":"outside","part":null}"#).unwrap();
+        assert_eq!(outside, SegmentClip::OUTSIDE);
+        for class in Class::ALL {
+            let name = serde_json::to_value(class).unwrap();
+            assert_eq!(name, class.name());
+            assert_eq!(serde_json::from_value::<Class>(name).unwrap(), class);
+        }
+        for face in Face::ALL {
+            assert_eq!(serde_json::to_value(face).unwrap(), face.name());
+        }
+        for accuracy in [Accuracy::Fast, Accuracy::Nearest, Accuracy::Inward] {
+            let name = format!("{accuracy:?}").to_lowercase();
+            assert_eq!(serde_json::to_value(accuracy).unwrap(), name);
+        }
+        for bits in 0..64 {
+            let set = FaceSet::from_bits(bits);
+            let names = serde_json::to_value(set).unwrap();
+            assert_eq!(serde_json::from_value::<FaceSet>(names).unwrap(), set);
+        }
+        let error = serde_json::from_str::<FaceSet>(r#"["near","side"]"#).unwrap_err();
+        assert!(
+            error.to_string().contains("unknown variant `side`"),
+            "{error}"
+        );
+    }
+
+    #[test]
+    fn counts_read_back_where_a_stage_is_missing() {
+        let counts: StageCounts = serde_json::from_str(r#"{"filter_failures":3}"#).unwrap();
+        assert_eq!(
+            serde_json::to_string(&counts).unwrap(),
+            r#"{"filter_failures":3,"double_doubles":0,"expansions":0,"integers":0}"#
+        );
     }
 
     proptest! {

@@ -1,7 +1,10 @@
 //! Each stage of the predicates is reached, and ends with what it is for.
 
 use frusta::samples::{Placement, Solid};
-use frusta::{Accuracy, Class, EndRect, Frustum, Pose, Segment, Shape, StageCounts};
+use frusta::{
+    Accuracy, Class, CohenSutherland, CyrusBeck, EndRect, Frustum, LiangBarsky, LiangBarskyVariant,
+    Pose, Segment, SegmentClipper, Shape, SixPlanes, StageCounts, VwProjection,
+};
 
 fn counts(frustum: &Frustum, s: &Segment<f64>, accuracy: Accuracy) -> (Class, StageCounts) {
     let mut counts = StageCounts::default();
@@ -139,4 +142,66 @@ fn a_face_at_zero_needs_no_integers() {
             assert_eq!(counts.filter_failures, 0, "{accuracy:?}");
         }
     }
+}
+
+/// All of them ask the same predicates; in plain arithmetic there are none.
+#[test]
+fn every_exact_clipper_counts_and_no_plain_one() {
+    use LiangBarskyVariant::{Textbook, Tuned};
+    let fast = Accuracy::Fast;
+    let pairs: [[Box<dyn SegmentClipper<f64>>; 2]; 6] = [
+        [
+            Box::new(VwProjection::exact(fast)),
+            Box::new(VwProjection::plain()),
+        ],
+        [
+            Box::new(LiangBarsky::exact(Textbook, fast)),
+            Box::new(LiangBarsky::plain(Textbook)),
+        ],
+        [
+            Box::new(LiangBarsky::exact(Tuned, fast)),
+            Box::new(LiangBarsky::plain(Tuned)),
+        ],
+        [
+            Box::new(CyrusBeck::exact(fast)),
+            Box::new(CyrusBeck::plain()),
+        ],
+        [
+            Box::new(CohenSutherland::exact(fast)),
+            Box::new(CohenSutherland::plain()),
+        ],
+        [
+            Box::new(SixPlanes::exact(fast)),
+            Box::new(SixPlanes::plain()),
+        ],
+    ];
+    let touch = Segment::new([1.5, 0.3, 2.5], [5.0, 0.3, 2.6]);
+    for [exact, plain] in pairs {
+        let count = |clipper: &dyn SegmentClipper<f64>| {
+            let mut counts = StageCounts::default();
+            let clip = clipper.clip_segment_counted(&thirds(), &touch, &mut counts);
+            assert_eq!(clip, clipper.clip_segment(&thirds(), &touch));
+            counts
+        };
+        let counts = count(&*exact);
+        assert_eq!(counts.filter_failures, 1, "{}", exact.name());
+        assert!(counts.expansions > 0, "{}", exact.name());
+        assert_eq!(count(&*plain), StageCounts::default(), "{}", plain.name());
+    }
+}
+
+#[test]
+fn counts_add_up() {
+    let s = Segment::new([1.5, 0.3, 2.5], [5.0, 0.3, 2.6]);
+    let (_, one) = counts(&thirds(), &s, Accuracy::Fast);
+    let sum: StageCounts = [one; 3].into_iter().sum();
+    assert_eq!(sum, one + one + one);
+    assert_eq!(sum.filter_failures, 3);
+    assert_eq!(sum.expansions, 3 * one.expansions);
+    let mut doubled = one;
+    doubled += one;
+    assert_eq!(
+        (doubled.double_doubles, doubled.integers),
+        (2 * one.double_doubles, 2 * one.integers)
+    );
 }

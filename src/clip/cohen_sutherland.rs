@@ -47,6 +47,7 @@ pub struct CohenSutherland {
 
 impl CohenSutherland {
     /// In floating point of the segment's own type.
+    #[must_use]
     pub const fn plain() -> Self {
         Self {
             arithmetic: Arithmetic::Plain,
@@ -54,6 +55,7 @@ impl CohenSutherland {
     }
 
     /// With exact decisions.
+    #[must_use]
     pub const fn exact(accuracy: Accuracy) -> Self {
         Self {
             arithmetic: Arithmetic::Exact(accuracy),
@@ -72,10 +74,19 @@ impl<T: Real> SegmentClipper<T> for CohenSutherland {
         frustum: &Frustum,
         segment: &Segment<T>,
     ) -> Result<SegmentClip<T>, NonFinite> {
+        self.clip_segment_counted(frustum, segment, &mut StageCounts::default())
+    }
+
+    #[inline]
+    fn clip_segment_counted(
+        &self,
+        frustum: &Frustum,
+        segment: &Segment<T>,
+        counts: &mut StageCounts,
+    ) -> Result<SegmentClip<T>, NonFinite> {
         match self.arithmetic {
             Arithmetic::Plain => plain::run(frustum, segment, plain::in_frame::<Plain, T>),
             Arithmetic::Exact(accuracy) => {
-                let counts = &mut StageCounts::default();
                 exact::clip(frustum, segment, accuracy, counts, |p| span(p))
             }
         }

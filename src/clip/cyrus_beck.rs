@@ -43,6 +43,7 @@ pub struct CyrusBeck {
 
 impl CyrusBeck {
     /// In floating point of the segment's own type.
+    #[must_use]
     pub const fn plain() -> Self {
         Self {
             arithmetic: Arithmetic::Plain,
@@ -50,6 +51,7 @@ impl CyrusBeck {
     }
 
     /// With exact decisions.
+    #[must_use]
     pub const fn exact(accuracy: Accuracy) -> Self {
         Self {
             arithmetic: Arithmetic::Exact(accuracy),
@@ -68,10 +70,19 @@ impl<T: Real> SegmentClipper<T> for CyrusBeck {
         frustum: &Frustum,
         segment: &Segment<T>,
     ) -> Result<SegmentClip<T>, NonFinite> {
+        self.clip_segment_counted(frustum, segment, &mut StageCounts::default())
+    }
+
+    #[inline]
+    fn clip_segment_counted(
+        &self,
+        frustum: &Frustum,
+        segment: &Segment<T>,
+        counts: &mut StageCounts,
+    ) -> Result<SegmentClip<T>, NonFinite> {
         match self.arithmetic {
             Arithmetic::Plain => plain::run(frustum, segment, clip),
             Arithmetic::Exact(accuracy) => {
-                let counts = &mut StageCounts::default();
                 exact::clip(frustum, segment, accuracy, counts, |p| span(p))
             }
         }

@@ -59,6 +59,7 @@ pub struct LiangBarsky {
 
 impl LiangBarsky {
     /// In floating point of the segment's own type.
+    #[must_use]
     pub const fn plain(variant: LiangBarskyVariant) -> Self {
         Self {
             arithmetic: Arithmetic::Plain,
@@ -67,6 +68,7 @@ impl LiangBarsky {
     }
 
     /// With exact decisions.
+    #[must_use]
     pub const fn exact(variant: LiangBarskyVariant, accuracy: Accuracy) -> Self {
         Self {
             arithmetic: Arithmetic::Exact(accuracy),
@@ -89,6 +91,16 @@ impl<T: Real> SegmentClipper<T> for LiangBarsky {
         frustum: &Frustum,
         segment: &Segment<T>,
     ) -> Result<SegmentClip<T>, NonFinite> {
+        self.clip_segment_counted(frustum, segment, &mut StageCounts::default())
+    }
+
+    #[inline]
+    fn clip_segment_counted(
+        &self,
+        frustum: &Frustum,
+        segment: &Segment<T>,
+        counts: &mut StageCounts,
+    ) -> Result<SegmentClip<T>, NonFinite> {
         match (self.arithmetic, self.variant) {
             (Arithmetic::Plain, LiangBarskyVariant::Textbook) => {
                 plain::run(frustum, segment, plain::in_frame::<Plain<Textbook>, T>)
@@ -97,7 +109,6 @@ impl<T: Real> SegmentClipper<T> for LiangBarsky {
                 plain::run(frustum, segment, plain::in_frame::<Plain<Tuned>, T>)
             }
             (Arithmetic::Exact(accuracy), variant) => {
-                let counts = &mut StageCounts::default();
                 exact::clip(frustum, segment, accuracy, counts, |p| match variant {
                     LiangBarskyVariant::Textbook => span_textbook(p),
                     LiangBarskyVariant::Tuned => span_tuned(p),

@@ -1,6 +1,7 @@
 //! Clipping segments: one file an algorithm, behind one trait.
 
 mod cohen_sutherland;
+mod contains;
 mod cyrus_beck;
 mod exact;
 mod liang_barsky;
@@ -24,6 +25,25 @@ use crate::math::{NonFinite, Real, Segment};
 ///
 /// All implementations take the same input and return the same result, so that
 /// a caller can swap them, also behind `dyn SegmentClipper<f64>`.
+///
+/// ```
+/// use frusta::{Accuracy, Class, CyrusBeck, EndRect, Frustum, Pose, Segment, SegmentClipper};
+/// use frusta::{Shape, VwProjection};
+/// # let near = EndRect::new(1.0, -1.0, 1.0, -1.0, 1.0);
+/// # let far = EndRect::new(3.0, -3.0, 3.0, -3.0, 3.0);
+/// # let frustum = Frustum::new(Pose::IDENTITY, Shape::Finite { near, far })?;
+/// let clippers: [Box<dyn SegmentClipper<f64>>; 3] = [
+///     Box::new(VwProjection::exact(Accuracy::Fast)),
+///     Box::new(CyrusBeck::exact(Accuracy::Fast)),
+///     Box::new(CyrusBeck::plain()),
+/// ];
+/// let segment = Segment::new([0.0, 0.0, 2.0], [4.0, 0.0, 2.0]);
+/// for clipper in clippers {
+///     let clip = clipper.clip_segment(&frustum, &segment)?;
+///     assert_eq!(clip.class, Class::Cross, "{}", clipper.name());
+/// }
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub trait SegmentClipper<T: Real> {
     /// The algorithm's name, in lower case with hyphens.
     fn name(&self) -> &'static str;
@@ -37,11 +57,42 @@ pub trait SegmentClipper<T: Real> {
         frustum: &Frustum,
         segment: &Segment<T>,
     ) -> Result<SegmentClip<T>, NonFinite>;
+
+    /// As [`SegmentClipper::clip_segment`], and adds to `counts` which stages of
+    /// the exact predicates were needed. An algorithm that has no such stages,
+    /// as all in plain arithmetic, adds nothing.
+    ///
+    /// # Errors
+    /// A coordinate of the segment is infinite or NaN.
+    fn clip_segment_counted(
+        &self,
+        frustum: &Frustum,
+        segment: &Segment<T>,
+        counts: &mut StageCounts,
+    ) -> Result<SegmentClip<T>, NonFinite> {
+        let _ = counts;
+        self.clip_segment(frustum, segment)
+    }
 }
 
 impl Frustum {
     /// The part of a segment that is in the frustum: class and face sets exact,
     /// points to [`Accuracy::Fast`].
+    ///
+    /// ```
+    /// use frusta::{Class, EndRect, Face, Frustum, Pose, Segment, Shape};
+    /// # let near = EndRect::new(1.0, -1.0, 1.0, -1.0, 1.0);
+    /// # let far = EndRect::new(3.0, -3.0, 3.0, -3.0, 3.0);
+    /// # let frustum = Frustum::new(Pose::IDENTITY, Shape::Finite { near, far })?;
+    /// // Along a side, from inside the far face to beyond it.
+    /// let clip = frustum.clip_segment(&Segment::new([2.0, 0.0, 2.0], [4.0, 0.0, 4.0]))?;
+    /// assert_eq!(clip.class, Class::Boundary);
+    /// let part = clip.part.unwrap();
+    /// assert_eq!(part.coplanar, Face::Right.into());
+    /// assert_eq!((part.exit.t, part.exit.point), (0.5, [3.0, 0.0, 3.0].into()));
+    /// assert_eq!(part.exit.faces.to_string(), "far+right");
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     ///
     /// # Errors
     /// A coordinate of the segment is infinite or NaN.
@@ -51,6 +102,36 @@ impl Frustum {
     }
 
     /// As [`Frustum::clip_segment`], with a choice of how exact the points are.
+    ///
+    /// [`Accuracy::Inward`] gives points that are in the frustum, where any
+    /// representable one is near; each end's [`PartEnd::inward`] says whether.
+    ///
+    /// ```
+    /// use frusta::{Accuracy, EndRect, Frustum, Pose, Segment, Shape};
+    /// # let near = EndRect::new(1.0, -1.0, 1.0, -1.0, 1.0);
+    /// # let far = EndRect::new(3.0, -3.0, 3.0, -3.0, 3.0);
+    /// # let frustum = Frustum::new(Pose::IDENTITY, Shape::Finite { near, far })?;
+    /// // No double holds where this leaves: 1 and two thirds.
+    /// let segment = Segment::new([0.0_f64, 0.0, 1.0], [5.0, 0.0, 3.0]);
+    /// let nearest = frustum.clip_segment_with(&segment, Accuracy::Nearest)?;
+    /// let inward = frustum.clip_segment_with(&segment, Accuracy::Inward)?;
+    /// let [nearest, inward] = [nearest, inward].map(|clip| clip.part.unwrap().exit);
+    /// assert!(!nearest.inward && inward.inward);
+    /// assert!(frustum.contains(inward.point)?);
+    /// assert!((inward.point.x - 5.0 / 3.0).abs() < 1e-15);
+    ///
+    /// // The tip of a needle at x = y = 1/3: no representable point near it is
+    /// // inside, so the end is the nearest one, flagged.
+    /// let mut pose = Pose::IDENTITY;
+    /// pose.axes = [[3.0, 0.0, 0.0], [0.0, 3.0, 0.0], [0.0, 0.0, 1.0]].map(Into::into);
+    /// let near = EndRect::new(1.0, 1.0, 1.0, 1.0, 1.0);
+    /// let far = EndRect::new(2.0, 0.999, 1.001, 0.999, 1.001);
+    /// let needle = Frustum::new(pose, Shape::Finite { near, far })?;
+    /// let segment = Segment::new([0.0, 0.0, 1.0], [1.0, 1.0, 1.0]);
+    /// let tip = needle.clip_segment_with(&segment, Accuracy::Inward)?.part.unwrap().entry;
+    /// assert!(!tip.inward && tip.point.x == 1.0 / 3.0);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     ///
     /// # Errors
     /// A coordinate of the segment is infinite or NaN.
@@ -65,6 +146,22 @@ impl Frustum {
 
     /// As [`Frustum::clip_segment_with`], and adds to `counts` which stages of
     /// the predicates were needed.
+    ///
+    /// ```
+    /// use frusta::{Accuracy, EndRect, Frustum, Pose, Segment, Shape, StageCounts};
+    /// # let near = EndRect::new(1.0, -1.0, 1.0, -1.0, 1.0);
+    /// # let far = EndRect::new(4.0, -2.0, 2.0, -2.0, 2.0);
+    /// # let frustum = Frustum::new(Pose::IDENTITY, Shape::Finite { near, far })?;
+    /// let mut counts = StageCounts::default();
+    /// // Clearly inside; and with an end an ulp off a side of slope 1/3.
+    /// for x in [0.5, 1.5_f64.next_down()] {
+    ///     let segment = Segment::new([x, 0.3, 2.5], [0.0, 0.1, 2.0]);
+    ///     let _ = frustum.clip_segment_counted(&segment, Accuracy::Fast, &mut counts)?;
+    /// }
+    /// assert_eq!(counts.filter_failures, 1);
+    /// assert_eq!((counts.double_doubles, counts.integers), (1, 0));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     ///
     /// # Errors
     /// A coordinate of the segment is infinite or NaN.

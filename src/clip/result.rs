@@ -3,9 +3,13 @@
 use crate::frustum::FaceSet;
 use crate::math::{Real, Vec3};
 use std::fmt;
+use std::iter::Sum;
+use std::ops::{Add, AddAssign};
 
 /// How a closed segment S lies to a closed frustum F.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "lowercase"))]
 pub enum Class {
     /// S and F have no point in common.
     Outside,
@@ -44,6 +48,14 @@ impl fmt::Display for Class {
 
 /// One end of the part of a segment that is in a frustum.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(bound(
+        serialize = "T: Real + serde::Serialize",
+        deserialize = "T: Real + serde::Deserialize<'de>"
+    ))
+)]
 pub struct PartEnd<T> {
     /// The segment's parameter, `0..=1`.
     pub t: T,
@@ -53,14 +65,23 @@ pub struct PartEnd<T> {
     pub clipped: bool,
     /// The faces whose planes contain the end, if the end is on the surface.
     pub faces: FaceSet,
-    /// With [`Accuracy::Inward`](crate::Accuracy::Inward): whether `point`
-    /// satisfies every face exactly. Always true for an end that was not
-    /// clipped; with the other accuracies, false for one that was.
+    /// With [`Accuracy::Inward`]: whether `point` satisfies every face exactly.
+    /// Always true for an end that was not clipped; with the other accuracies,
+    /// false for one that was. From plain arithmetic it proves nothing: that may
+    /// take an end outside for one that is not clipped.
     pub inward: bool,
 }
 
 /// The part of a segment that is in a frustum.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(bound(
+        serialize = "T: Real + serde::Serialize",
+        deserialize = "T: Real + serde::Deserialize<'de>"
+    ))
+)]
 pub struct Part<T> {
     /// Where the segment enters; `entry.faces` is the entry set.
     pub entry: PartEnd<T>,
@@ -73,6 +94,15 @@ pub struct Part<T> {
 
 /// The result of clipping a segment by a frustum.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(bound(
+        serialize = "T: Real + serde::Serialize",
+        deserialize = "T: Real + serde::Deserialize<'de>"
+    ))
+)]
+#[must_use]
 pub struct SegmentClip<T> {
     /// How the segment lies to the frustum.
     pub class: Class,
@@ -88,6 +118,7 @@ impl<T: Real> SegmentClip<T> {
     };
 
     /// Entry and exit points, if there are any.
+    #[must_use]
     pub fn points(&self) -> Option<[Vec3<T>; 2]> {
         self.part.map(|p| [p.entry.point, p.exit.point])
     }
@@ -98,6 +129,8 @@ impl<T: Real> SegmentClip<T> {
 ///
 /// `u` is the unit roundoff of the segment's scalar type.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "lowercase"))]
 pub enum Accuracy {
     /// Each coordinate within `8 u` times the segment's largest coordinate,
     /// plus the smallest subnormal; each parameter within `4 u`.
@@ -129,9 +162,16 @@ impl Default for Arithmetic {
 }
 
 /// How often each stage of the exact predicates was needed.
+///
+/// Sums over segments add up: with `+`, `+=` and [`Iterator::sum`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(default))]
 pub struct StageCounts {
-    /// Segments that the floating-point filter did not settle.
+    /// Segments of which the floating-point filter left at least one sign open,
+    /// whichever later stage settled it: mostly double-double. Of an `Inward`
+    /// point every candidate's signs count.
     pub filter_failures: u64,
     /// Signs taken from double-double values.
     pub double_doubles: u64,
@@ -139,4 +179,28 @@ pub struct StageCounts {
     pub expansions: u64,
     /// Signs and values taken from big integers.
     pub integers: u64,
+}
+
+impl AddAssign for StageCounts {
+    fn add_assign(&mut self, other: Self) {
+        self.filter_failures += other.filter_failures;
+        self.double_doubles += other.double_doubles;
+        self.expansions += other.expansions;
+        self.integers += other.integers;
+    }
+}
+
+impl Add for StageCounts {
+    type Output = Self;
+
+    fn add(mut self, other: Self) -> Self {
+        self += other;
+        self
+    }
+}
+
+impl Sum for StageCounts {
+    fn sum<I: Iterator<Item = Self>>(counts: I) -> Self {
+        counts.fold(Self::default(), Add::add)
+    }
 }

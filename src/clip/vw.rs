@@ -52,6 +52,7 @@ pub struct VwProjection {
 
 impl VwProjection {
     /// In floating point of the segment's own type.
+    #[must_use]
     pub const fn plain() -> Self {
         Self {
             arithmetic: Arithmetic::Plain,
@@ -59,6 +60,7 @@ impl VwProjection {
     }
 
     /// With exact decisions.
+    #[must_use]
     pub const fn exact(accuracy: Accuracy) -> Self {
         Self {
             arithmetic: Arithmetic::Exact(accuracy),
@@ -77,11 +79,19 @@ impl<T: Real> SegmentClipper<T> for VwProjection {
         frustum: &Frustum,
         segment: &Segment<T>,
     ) -> Result<SegmentClip<T>, NonFinite> {
+        self.clip_segment_counted(frustum, segment, &mut StageCounts::default())
+    }
+
+    #[inline]
+    fn clip_segment_counted(
+        &self,
+        frustum: &Frustum,
+        segment: &Segment<T>,
+        counts: &mut StageCounts,
+    ) -> Result<SegmentClip<T>, NonFinite> {
         match self.arithmetic {
             Arithmetic::Plain => plain::run(frustum, segment, plain::in_frame::<Plain, T>),
-            Arithmetic::Exact(accuracy) => {
-                exact::vw::clip(frustum, segment, accuracy, &mut StageCounts::default())
-            }
+            Arithmetic::Exact(accuracy) => exact::vw::clip(frustum, segment, accuracy, counts),
         }
     }
 }

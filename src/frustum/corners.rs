@@ -41,6 +41,7 @@ pub struct Plane {
 
 impl Plane {
     /// The signed distance of a point, in plain arithmetic.
+    #[must_use]
     #[inline]
     pub fn signed_distance(&self, p: Vec3<f64>) -> f64 {
         self.normal.dot(p) + self.offset
@@ -118,6 +119,7 @@ impl Frustum {
     /// assert_eq!(far[2], Vec3::new(3.0, 3.0, 3.0));
     /// # Ok::<(), frusta::FrustumError>(())
     /// ```
+    #[must_use]
     pub fn corners(&self) -> Corners {
         let inverse = Inverse::new(self);
         let end = |e: EndRect| around(e.rect).map(|[x, y]| inverse.point([x, y, e.z]));
@@ -158,6 +160,7 @@ impl Frustum {
     /// assert_eq!((left.normal, left.offset), (Vec3::new(1.0, 0.0, 0.0), 1.0));
     /// # Ok::<(), frusta::FrustumError>(())
     /// ```
+    #[must_use]
     pub fn plane(&self, face: Face) -> Option<Plane> {
         let axes = self.pose().axes;
         let [across, along, constant] = self.frame_plane(face)?;

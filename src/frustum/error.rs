@@ -1,6 +1,6 @@
 //! Everything that can be wrong with a frustum's description.
 
-use crate::math::Vec3;
+use crate::math::{Short, Vec3};
 use std::fmt;
 
 /// Why something is no frustum.
@@ -162,8 +162,14 @@ impl fmt::Display for FrustumError {
     // Long because it has one arm a variant.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::NonFinite { what, value } => write!(f, "{what} is {value}; it must be finite"),
-            Self::NoDepth { z } => write!(f, "near and far are both at z = {z}; they must differ"),
+            Self::NonFinite { what, value } => {
+                write!(f, "{what} is {}; it must be finite", Short(*value))
+            }
+            Self::NoDepth { z } => write!(
+                f,
+                "near and far are both at z = {}; they must differ",
+                Short(*z)
+            ),
             Self::Inverted {
                 end,
                 what,
@@ -171,7 +177,9 @@ impl fmt::Display for FrustumError {
                 high,
             } => write!(
                 f,
-                "{end} {what} is {low}..{high}; the lower bound must not exceed the upper"
+                "{end} {what} is {}..{}; the lower bound must not exceed the upper",
+                Short(*low),
+                Short(*high)
             ),
             Self::Flat { what } => {
                 write!(
@@ -189,23 +197,38 @@ impl fmt::Display for FrustumError {
             ),
             Self::FieldOfView { fovy } => write!(
                 f,
-                "fovy is {fovy} radians; it must be between 0 and pi, exclusive"
+                "fovy is {} radians; it must be between 0 and pi, exclusive",
+                Short(*fovy)
             ),
             Self::Aspect { aspect } => {
-                write!(f, "aspect is {aspect}; it must be positive and finite")
+                write!(
+                    f,
+                    "aspect is {}; it must be positive and finite",
+                    Short(*aspect)
+                )
             }
             Self::Height { height } => {
-                write!(f, "height is {height}; it must be positive and finite")
+                write!(
+                    f,
+                    "height is {}; it must be positive and finite",
+                    Short(*height)
+                )
             }
             Self::NearBehindEye { near } => write!(
                 f,
-                "near is {near}; a perspective camera needs it at 0 or beyond"
+                "near is {}; a perspective camera needs it at 0 or beyond",
+                Short(*near)
             ),
             Self::OffAxisAtEye => {
                 f.write_str("near is 0; an off-axis rectangle needs a near distance above 0")
             }
             Self::FarNotBeyondNear { near, far } => {
-                write!(f, "far is {far}; it must be beyond near, {near}")
+                write!(
+                    f,
+                    "far is {}; it must be beyond near, {}",
+                    Short(*far),
+                    Short(*near)
+                )
             }
             Self::Overflow { what } => write!(f, "{what} is too large for a double"),
             Self::Underflow { what } => {
@@ -219,7 +242,8 @@ impl fmt::Display for FrustumError {
                 cosine,
             } => write!(
                 f,
-                "the edges to {a} and {b} meet at cosine {cosine}; they must be at a right angle"
+                "the edges to {a} and {b} meet at cosine {}; they must be at a right angle",
+                Short(*cosine)
             ),
             Self::WrongSide { what } => {
                 write!(f, "{what} lies opposite its counterpart on the base")
@@ -235,24 +259,32 @@ impl fmt::Display for FrustumError {
             ),
             Self::Convergence { convergence } => write!(
                 f,
-                "the convergence is at {convergence}; it must be a number other than 0"
+                "the convergence is at {}; it must be a number other than 0",
+                Short(*convergence)
             ),
             Self::SingularMatrix => f.write_str("the matrix is singular"),
             Self::NegativeW { w } => {
-                write!(f, "the matrix gives W = {w} everywhere; W must be positive")
+                write!(
+                    f,
+                    "the matrix gives W = {} everywhere; W must be positive",
+                    Short(*w)
+                )
             }
             Self::TiltedDepth { sine } => write!(
                 f,
-                "the matrix's near and far planes are not parallel to its picture (sine {sine})"
+                "the matrix's near and far planes are not parallel to its picture (sine {})",
+                Short(*sine)
             ),
             Self::NoNearPlane { w } => write!(
                 f,
-                "the matrix's near plane is not in front of the eye (W = {w}): wrong depth range, \
-                 reversal or sign?"
+                "the matrix's near plane is not in front of the eye (W = {}): wrong depth range, \
+                 reversal or sign?",
+                Short(*w)
             ),
             Self::FarBehindEye { w } => write!(
                 f,
-                "the matrix's far plane is behind the eye (W = {w}): wrong depth range or reversal?"
+                "the matrix's far plane is behind the eye (W = {}): wrong depth range or reversal?",
+                Short(*w)
             ),
         }
     }

@@ -1,9 +1,13 @@
 //! The six faces and sets of them.
 
 use std::fmt;
+use std::iter::FusedIterator;
+use std::ops::{BitOr, BitOrAssign};
 
 /// A face of a frustum.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "lowercase"))]
 #[repr(u8)]
 pub enum Face {
     /// Where depth is zero.
@@ -50,7 +54,17 @@ impl fmt::Display for Face {
 /// A set of faces.
 ///
 /// Displays as names joined by `+`, in the order of [`Face::ALL`]; the empty
-/// set as nothing.
+/// set as nothing. With `serde` it is a list of names.
+///
+/// ```
+/// use frusta::{Face, FaceSet};
+/// let edge: FaceSet = [Face::Top, Face::Left].into_iter().collect();
+/// let mut vertex = edge | Face::Near.into();
+/// assert_eq!(vertex.to_string(), "near+left+top");
+/// assert!(edge.into_iter().eq([Face::Left, Face::Top]));
+/// vertex.remove(Face::Near);
+/// assert_eq!(vertex, edge);
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct FaceSet(u8);
 
@@ -59,6 +73,7 @@ impl FaceSet {
     pub const EMPTY: FaceSet = FaceSet(0);
 
     /// From bits, bit `i` for `Face::ALL[i]`; higher bits are ignored.
+    #[must_use]
     #[inline(always)]
     pub const fn from_bits(bits: u8) -> Self {
         FaceSet(bits & 0x3f)
@@ -82,19 +97,28 @@ impl FaceSet {
         self.0 |= 1 << face as u8;
     }
 
+    /// Takes a face away.
+    #[inline(always)]
+    pub const fn remove(&mut self, face: Face) {
+        self.0 &= !(1 << face as u8);
+    }
+
     /// The faces in either set.
+    #[must_use]
     #[inline(always)]
     pub const fn union(self, other: Self) -> Self {
         FaceSet(self.0 | other.0)
     }
 
     /// The faces in both sets.
+    #[must_use]
     #[inline(always)]
     pub const fn intersection(self, other: Self) -> Self {
         FaceSet(self.0 & other.0)
     }
 
     /// The faces in this set and not in the other.
+    #[must_use]
     #[inline(always)]
     pub const fn difference(self, other: Self) -> Self {
         FaceSet(self.0 & !other.0)
@@ -112,8 +136,10 @@ impl FaceSet {
     }
 
     /// The faces, in the order of [`Face::ALL`].
-    pub fn iter(self) -> impl Iterator<Item = Face> {
-        Face::ALL.into_iter().filter(move |&f| self.contains(f))
+    #[must_use]
+    #[inline]
+    pub const fn iter(self) -> FaceSetIter {
+        FaceSetIter(self)
     }
 
     /// The first face in the order of [`Face::ALL`].
@@ -126,12 +152,77 @@ impl FaceSet {
 impl FromIterator<Face> for FaceSet {
     fn from_iter<I: IntoIterator<Item = Face>>(faces: I) -> Self {
         let mut set = FaceSet::EMPTY;
-        for face in faces {
-            set.insert(face);
-        }
+        set.extend(faces);
         set
     }
 }
+
+impl Extend<Face> for FaceSet {
+    fn extend<I: IntoIterator<Item = Face>>(&mut self, faces: I) {
+        for face in faces {
+            self.insert(face);
+        }
+    }
+}
+
+impl BitOr for FaceSet {
+    type Output = Self;
+
+    #[inline(always)]
+    fn bitor(self, other: Self) -> Self {
+        self.union(other)
+    }
+}
+
+impl BitOrAssign for FaceSet {
+    #[inline(always)]
+    fn bitor_assign(&mut self, other: Self) {
+        *self = self.union(other);
+    }
+}
+
+impl IntoIterator for FaceSet {
+    type Item = Face;
+    type IntoIter = FaceSetIter;
+
+    #[inline]
+    fn into_iter(self) -> FaceSetIter {
+        self.iter()
+    }
+}
+
+impl IntoIterator for &FaceSet {
+    type Item = Face;
+    type IntoIter = FaceSetIter;
+
+    #[inline]
+    fn into_iter(self) -> FaceSetIter {
+        self.iter()
+    }
+}
+
+/// The faces of a set, in the order of [`Face::ALL`].
+#[derive(Clone, Debug)]
+pub struct FaceSetIter(FaceSet);
+
+impl Iterator for FaceSetIter {
+    type Item = Face;
+
+    #[inline]
+    fn next(&mut self) -> Option<Face> {
+        let face = self.0.first()?;
+        self.0.remove(face);
+        Some(face)
+    }
+
+    #[inline]
+    fn size_hint(&self) -> (usize, Option<usize>) {
+        (self.0.len(), Some(self.0.len()))
+    }
+}
+
+impl ExactSizeIterator for FaceSetIter {}
+impl FusedIterator for FaceSetIter {}
 
 impl From<Face> for FaceSet {
     fn from(face: Face) -> Self {

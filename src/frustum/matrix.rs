@@ -100,6 +100,7 @@ impl ClipSpace {
     };
 
     /// The same, with near at the largest depth.
+    #[must_use]
     pub const fn reversed(self) -> Self {
         Self {
             reversed: true,
@@ -174,6 +175,7 @@ struct Rows {
 
 impl<T: Real> ViewProjection<T> {
     /// From sixteen numbers.
+    #[must_use]
     pub fn new(entries: [[T; 4]; 4], layout: MatrixLayout) -> Self {
         Self {
             rows: if layout.holds_columns() {
@@ -184,7 +186,24 @@ impl<T: Real> ViewProjection<T> {
         }
     }
 
+    /// From sixteen numbers in a row, four for each of what the layout counts
+    /// first: rows or columns, as they lie in memory.
+    ///
+    /// ```
+    /// use frusta::{MatrixLayout, ViewProjection};
+    /// let numbers: [f64; 16] = std::array::from_fn(|i| i as f64);
+    /// let matrix = ViewProjection::from_flat(numbers, MatrixLayout::ColumnMajorColumnVectors);
+    /// let rows = matrix.to_array(MatrixLayout::RowMajorColumnVectors);
+    /// assert_eq!(rows[0], [0.0, 4.0, 8.0, 12.0]);
+    /// ```
+    #[must_use]
+    pub fn from_flat(entries: [T; 16], layout: MatrixLayout) -> Self {
+        let entries = std::array::from_fn(|i| std::array::from_fn(|j| entries[4 * i + j]));
+        Self::new(entries, layout)
+    }
+
     /// The sixteen numbers.
+    #[must_use]
     pub fn to_array(&self, layout: MatrixLayout) -> [[T; 4]; 4] {
         if layout.holds_columns() {
             transposed(self.rows)

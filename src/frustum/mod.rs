@@ -19,7 +19,7 @@ mod window;
 pub use camera::{Camera, Projection};
 pub use corners::{Corners, FarCorners, Plane};
 pub use error::FrustumError;
-pub use face::{Face, FaceSet};
+pub use face::{Face, FaceSet, FaceSetIter};
 pub use matrix::{
     ClipSpace, ClipY, DepthRange, Deviation, MatrixFrustum, MatrixLayout, ViewProjection,
 };
@@ -48,6 +48,27 @@ pub struct Frustum {
 
 impl Frustum {
     /// From a pose and a shape.
+    ///
+    /// ```
+    /// use frusta::{Direction, EndRect, Face, Frustum, FrustumError, Pose, Rect, Shape, Vec3};
+    /// let near = EndRect::new(1.0, -1.0, 1.0, -1.0, 1.0);
+    /// let far = EndRect::new(3.0, -3.0, 3.0, -3.0, 3.0);
+    /// let frustum = Frustum::new(Pose::IDENTITY, Shape::Finite { near, far })?;
+    /// assert_eq!(frustum.faces(), Face::ALL);
+    ///
+    /// // The same sides without end, from another place. Axes need not be of
+    /// // unit length.
+    /// let mut pose = Pose::IDENTITY;
+    /// pose.origin = Vec3::new(10.0, 0.0, 0.0);
+    /// pose.axes[1] = Vec3::new(0.0, 3.0, 4.0);
+    /// let slopes = Rect::centred(1.0, 1.0);
+    /// let endless = Shape::Infinite { near, slopes, direction: Direction::PlusZ };
+    /// assert_eq!(Frustum::new(pose, endless)?.faces().len(), 5);
+    ///
+    /// let flat = Shape::Finite { near, far: near };
+    /// assert_eq!(Frustum::new(pose, flat), Err(FrustumError::NoDepth { z: 1.0 }));
+    /// # Ok::<(), FrustumError>(())
+    /// ```
     ///
     /// # Errors
     /// What [`Shape::validate`] finds; numbers of the pose that are not finite;

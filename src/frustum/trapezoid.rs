@@ -81,11 +81,13 @@ impl Frustum {
     /// assert_eq!(entry, Vec3::new(-2.0, 0.0, 2.0));
     /// # Ok::<(), frusta::FrustumError>(())
     /// ```
+    #[must_use]
     pub fn tv(&self) -> Trapezoid {
         self.project(|r| [r.left, r.right])
     }
 
     /// The paper's TW: the projection on the plane of the frame's `y` and `z`.
+    #[must_use]
     pub fn tw(&self) -> Trapezoid {
         self.project(|r| [r.bottom, r.top])
     }
@@ -166,6 +168,7 @@ impl Trapezoid {
     /// A segment of zero length in the trapezoid gives `0..=1`. Each boundary
     /// value errs by at most about `8 u` times its largest term; an end within
     /// that of a side may come out on either side of it.
+    #[must_use]
     pub fn clip_segment(&self, p: [f64; 2], q: [f64; 2]) -> Option<Interval> {
         let (trapezoid, p, q) = self.in_range(p, q)?;
         let (at_p, at_q) = (trapezoid.values(p), trapezoid.values(q));

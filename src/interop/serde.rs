@@ -1,4 +1,4 @@
-//! `serde`: a frustum as its canonical form.
+//! `serde`: a frustum as its canonical form, and what clipping gives.
 //!
 //! ```json
 //! {
@@ -12,11 +12,20 @@
 //! An infinite frustum has, in place of `far`, `"slopes": { "left", "right",
 //! "bottom", "top" }` and `"direction": 1` or `-1`. Reading goes through
 //! [`Frustum::new`], so that no invalid frustum comes out of a file; other
-//! fields are refused. The format needs field names (JSON, TOML, RON; not
-//! `bincode`). Text loses nothing if its reader rounds correctly: for
-//! `serde_json` that is its feature `float_roundtrip`.
+//! fields are refused, at every depth. The format needs field names (JSON,
+//! TOML, RON; not `bincode`). Text loses nothing if its reader rounds
+//! correctly: for `serde_json` that is its feature `float_roundtrip`.
+//!
+//! Results have the names of their fields; classes and faces are called as in
+//! [`Class::name`](crate::Class::name) and [`Face::name`]:
+//!
+//! ```json
+//! {"class": "cross", "part": {"entry": {"t": 0, "point": [0, 0, 1], "clipped": false,
+//!   "faces": [], "inward": true}, "exit": {"t": 0.5, "point": [1, 1, 1], "clipped": true,
+//!   "faces": ["right", "top"], "inward": false}, "coplanar": []}}
+//! ```
 
-use crate::frustum::{Direction, EndRect, Frustum, Shape};
+use crate::frustum::{Direction, EndRect, Face, FaceSet, Frustum, Shape};
 use crate::math::{Pose, Rect, Vec3};
 use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
@@ -26,34 +35,114 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 struct Canonical {
     origin: Vec3<f64>,
     axes: [Vec3<f64>; 3],
-    near: EndRect,
+    near: End,
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    far: Option<EndRect>,
+    far: Option<End>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    slopes: Option<Rect>,
+    slopes: Option<Sides>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    direction: Option<i8>,
+    direction: Option<Sign>,
+}
+
+/// [`EndRect`] that takes no other field: its own reader, which flattens the
+/// rectangle, cannot tell.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct End {
+    z: f64,
+    left: f64,
+    right: f64,
+    bottom: f64,
+    top: f64,
+}
+
+impl From<EndRect> for End {
+    fn from(EndRect { z, rect }: EndRect) -> Self {
+        let [left, right, bottom, top] = rect.to_array();
+        Self {
+            z,
+            left,
+            right,
+            bottom,
+            top,
+        }
+    }
+}
+
+impl From<End> for EndRect {
+    fn from(end: End) -> Self {
+        Self::new(end.z, end.left, end.right, end.bottom, end.top)
+    }
+}
+
+/// [`Rect`] that takes no other field.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Sides {
+    left: f64,
+    right: f64,
+    bottom: f64,
+    top: f64,
+}
+
+impl From<Rect> for Sides {
+    fn from(rect: Rect) -> Self {
+        let [left, right, bottom, top] = rect.to_array();
+        Self {
+            left,
+            right,
+            bottom,
+            top,
+        }
+    }
+}
+
+impl From<Sides> for Rect {
+    fn from(sides: Sides) -> Self {
+        Self::new(sides.left, sides.right, sides.bottom, sides.top)
+    }
+}
+
+/// A direction as its sign: written as an integer, read as any number, because
+/// some writers know no integers.
+#[derive(Clone, Copy, Serialize, Deserialize)]
+#[serde(try_from = "f64", into = "i8")]
+struct Sign(Direction);
+
+impl From<Sign> for i8 {
+    fn from(Sign(direction): Sign) -> Self {
+        match direction {
+            Direction::PlusZ => 1,
+            Direction::MinusZ => -1,
+        }
+    }
+}
+
+impl TryFrom<f64> for Sign {
+    type Error = String;
+
+    fn try_from(sign: f64) -> Result<Self, String> {
+        match sign {
+            1.0 => Ok(Self(Direction::PlusZ)),
+            -1.0 => Ok(Self(Direction::MinusZ)),
+            other => Err(format!("direction is {other:?}; it must be 1 or -1")),
+        }
+    }
 }
 
 impl Serialize for Frustum {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let pose = self.pose();
         let (far, slopes, direction) = match *self.shape() {
-            Shape::Finite { far, .. } => (Some(far), None, None),
+            Shape::Finite { far, .. } => (Some(far.into()), None, None),
             Shape::Infinite {
                 slopes, direction, ..
-            } => {
-                let sign = match direction {
-                    Direction::PlusZ => 1,
-                    Direction::MinusZ => -1,
-                };
-                (None, Some(slopes), Some(sign))
-            }
+            } => (None, Some(slopes.into()), Some(Sign(direction))),
         };
         Canonical {
             origin: pose.origin,
             axes: pose.axes,
-            near: self.shape().near(),
+            near: self.shape().near().into(),
             far,
             slopes,
             direction,
@@ -72,20 +161,16 @@ impl<'de> Deserialize<'de> for Frustum {
             slopes,
             direction,
         } = Canonical::deserialize(deserializer)?;
+        let near = near.into();
         let shape = match (far, slopes, direction) {
-            (Some(far), None, None) => Shape::Finite { near, far },
-            (None, Some(slopes), Some(direction)) => Shape::Infinite {
+            (Some(far), None, None) => Shape::Finite {
                 near,
-                slopes,
-                direction: match direction {
-                    1 => Direction::PlusZ,
-                    -1 => Direction::MinusZ,
-                    _ => {
-                        return Err(D::Error::custom(format_args!(
-                            "direction is {direction}; it must be 1 or -1"
-                        )));
-                    }
-                },
+                far: far.into(),
+            },
+            (None, Some(slopes), Some(Sign(direction))) => Shape::Infinite {
+                near,
+                slopes: slopes.into(),
+                direction,
             },
             _ => {
                 return Err(D::Error::custom(
@@ -94,5 +179,18 @@ impl<'de> Deserialize<'de> for Frustum {
             }
         };
         Frustum::new(Pose::new(origin, axes), shape).map_err(D::Error::custom)
+    }
+}
+
+impl Serialize for FaceSet {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_seq(self)
+    }
+}
+
+impl<'de> Deserialize<'de> for FaceSet {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let faces = Vec::<Face>::deserialize(deserializer)?;
+        Ok(faces.into_iter().collect())
     }
 }

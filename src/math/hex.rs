@@ -70,6 +70,7 @@ impl<T: Real> fmt::Display for Hex<Segment<T>> {
 /// assert_eq!(hex::format(0.0), "0x0p+0");
 /// assert_eq!(hex::format(5e-324), "0x1p-1074");
 /// ```
+#[must_use]
 pub fn format(value: f64) -> String {
     Hex(value).to_string()
 }

@@ -15,6 +15,7 @@ impl Interval {
     };
 
     /// From both ends; `None` if `start > end` or either is NaN.
+    #[must_use]
     pub fn new(start: f64, end: f64) -> Option<Self> {
         (start <= end).then_some(Self { start, end })
     }
@@ -40,6 +41,7 @@ impl Interval {
     /// assert_eq!(a.intersection(b), Interval::new(0.5, 0.5));
     /// assert_eq!(a.intersection(Interval::new(0.75, 1.0).unwrap()), None);
     /// ```
+    #[must_use]
     pub fn intersection(self, other: Self) -> Option<Self> {
         Self::new(self.start.max(other.start), self.end.min(other.end))
     }

@@ -15,6 +15,7 @@ pub use interval::Interval;
 pub use pose::Pose;
 pub(crate) use real::PerReal;
 pub use real::Real;
+pub(crate) use real::Short;
 pub use rect::Rect;
 pub use segment::{End, NonFinite, Segment};
 pub use vec3::{Axis, Vec3};

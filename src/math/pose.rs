@@ -28,6 +28,7 @@ impl Pose {
     };
 
     /// From an origin and three axes.
+    #[must_use]
     pub const fn new(origin: Vec3<f64>, axes: [Vec3<f64>; 3]) -> Self {
         Self { origin, axes }
     }
@@ -39,6 +40,7 @@ impl Pose {
 
     /// Frame coordinates of a point, rounded: for drawing and for plain
     /// arithmetic, never for exact decisions.
+    #[must_use]
     #[inline(always)]
     pub fn to_frame(&self, p: Vec3<f64>) -> Vec3<f64> {
         let c = p - self.origin;
@@ -88,6 +90,7 @@ impl Pose {
     /// assert_eq!(q, Vec3::new(2.0, 2.0, 4.0));
     /// assert_eq!(pose.to_world(q), Vec3::new(3.0, 2.0, 1.0));
     /// ```
+    #[must_use]
     pub fn to_world(&self, q: Vec3<f64>) -> Vec3<f64> {
         if let Some(offset) = self.offset_by_cramer(q) {
             return self.origin + offset;

@@ -1,6 +1,6 @@
 //! The two scalar types that points may have.
 
-use std::fmt::{Debug, Display};
+use std::fmt::{self, Debug, Display};
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 mod sealed {
@@ -127,3 +127,14 @@ macro_rules! real {
 
 real!(f32, 5.960464477539063e-8, 1.401298464324817e-45);
 real!(f64, 1.1102230246251565e-16, 5e-324);
+
+/// A scalar in a message: the shortest text that reads back, with an exponent
+/// where it would be long. `Display` of 1e300 has 301 digits.
+pub(crate) struct Short<T>(pub(crate) T);
+
+impl<T: Real> fmt::Display for Short<T> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let text = format!("{:?}", self.0);
+        f.write_str(text.strip_suffix(".0").unwrap_or(&text))
+    }
+}

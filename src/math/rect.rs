@@ -17,6 +17,7 @@ pub struct Rect {
 
 impl Rect {
     /// From the four sides.
+    #[must_use]
     pub const fn new(left: f64, right: f64, bottom: f64, top: f64) -> Self {
         Self {
             left,
@@ -27,12 +28,14 @@ impl Rect {
     }
 
     /// The rectangle centred on the origin with these half-extents.
+    #[must_use]
     pub const fn centred(half_width: f64, half_height: f64) -> Self {
         // Not the sign: a half of 0 would give -0.
         Self::new(0.0 - half_width, half_width, 0.0 - half_height, half_height)
     }
 
     /// The sides in the order left, right, bottom, top.
+    #[must_use]
     pub const fn to_array(self) -> [f64; 4] {
         [self.left, self.right, self.bottom, self.top]
     }

@@ -31,11 +31,11 @@ pub struct Segment<T> {
     pub end: Vec3<T>,
 }
 
-/// A coordinate of a segment is infinite or not a number.
+/// A coordinate of a segment or of a point is infinite or not a number.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NonFinite {
-    /// Which end holds it.
-    pub end: End,
+    /// Which end of the segment holds it; `None` for a point.
+    pub end: Option<End>,
     /// Which coordinate it is.
     pub axis: Axis,
     /// The value found.
@@ -44,13 +44,14 @@ pub struct NonFinite {
 
 impl fmt::Display for NonFinite {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let end = match self.end {
-            End::Start => "start",
-            End::End => "end",
+        let place = match self.end {
+            Some(End::Start) => "the segment's start",
+            Some(End::End) => "the segment's end",
+            None => "the point",
         };
         write!(
             f,
-            "the segment's {end} has {} = {}; coordinates must be finite",
+            "{place} has {} = {}; coordinates must be finite",
             self.axis, self.value
         )
     }
@@ -58,8 +59,22 @@ impl fmt::Display for NonFinite {
 
 impl std::error::Error for NonFinite {}
 
+impl NonFinite {
+    /// Names a point's first coordinate that is infinite or NaN.
+    pub(crate) fn check<T: Real>(end: Option<End>, point: Vec3<T>) -> Result<(), Self> {
+        for axis in Axis::ALL {
+            let value = point[axis as usize].to_f64();
+            if !value.is_finite() {
+                return Err(Self { end, axis, value });
+            }
+        }
+        Ok(())
+    }
+}
+
 impl<T: Real> Segment<T> {
     /// From two points.
+    #[must_use]
     #[inline(always)]
     pub fn new(start: impl Into<Vec3<T>>, end: impl Into<Vec3<T>>) -> Self {
         Self {
@@ -69,6 +84,7 @@ impl<T: Real> Segment<T> {
     }
 
     /// The same points, the other way round.
+    #[must_use]
     #[inline]
     pub fn reversed(self) -> Self {
         Self {
@@ -78,6 +94,7 @@ impl<T: Real> Segment<T> {
     }
 
     /// The same segment in `f64`; always exact.
+    #[must_use]
     #[inline(always)]
     pub fn to_f64(self) -> Segment<f64> {
         Segment {
@@ -92,12 +109,7 @@ impl<T: Real> Segment<T> {
     /// Names the first coordinate that is infinite or NaN.
     pub fn check_finite(&self) -> Result<(), NonFinite> {
         for (end, point) in [(End::Start, self.start), (End::End, self.end)] {
-            for axis in Axis::ALL {
-                let value = point[axis as usize].to_f64();
-                if !value.is_finite() {
-                    return Err(NonFinite { end, axis, value });
-                }
-            }
+            NonFinite::check(Some(end), point)?;
         }
         Ok(())
     }

@@ -1,6 +1,6 @@
 //! Three coordinates.
 
-use super::Real;
+use super::{Real, Short};
 use std::fmt;
 use std::ops::{Add, Index, IndexMut, Mul, Neg, Sub};
 
@@ -49,6 +49,7 @@ pub struct Vec3<T> {
 
 impl<T> Vec3<T> {
     /// From three coordinates.
+    #[must_use]
     #[inline(always)]
     pub const fn new(x: T, y: T, z: T) -> Self {
         Self { x, y, z }
@@ -57,24 +58,28 @@ impl<T> Vec3<T> {
 
 impl<T: Real> Vec3<T> {
     /// The same vector in `f64`; always exact.
+    #[must_use]
     #[inline(always)]
     pub fn to_f64(self) -> Vec3<f64> {
         Vec3::new(self.x.to_f64(), self.y.to_f64(), self.z.to_f64())
     }
 
     /// The nearest vector in `T`.
+    #[must_use]
     #[inline(always)]
     pub fn from_f64(v: Vec3<f64>) -> Self {
         Vec3::new(T::from_f64(v.x), T::from_f64(v.y), T::from_f64(v.z))
     }
 
     /// `x*x' + y*y' + z*z'`, summed from left to right.
+    #[must_use]
     #[inline(always)]
     pub fn dot(self, other: Self) -> T {
         self.x * other.x + self.y * other.y + self.z * other.z
     }
 
     /// The cross product.
+    #[must_use]
     #[inline]
     pub fn cross(self, other: Self) -> Self {
         Vec3::new(
@@ -91,6 +96,7 @@ impl<T: Real> Vec3<T> {
     }
 
     /// The coordinates as an array.
+    #[must_use]
     #[inline(always)]
     pub fn to_array(self) -> [T; 3] {
         [self.x, self.y, self.z]
@@ -175,8 +181,9 @@ impl<T: Real> Neg for Vec3<T> {
     }
 }
 
-impl<T: fmt::Display> fmt::Display for Vec3<T> {
+impl<T: Real> fmt::Display for Vec3<T> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "({}, {}, {})", self.x, self.y, self.z)
+        let [x, y, z] = self.to_array().map(Short);
+        write!(f, "({x}, {y}, {z})")
     }
 }

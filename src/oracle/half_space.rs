@@ -12,6 +12,7 @@ use crate::frustum::{Direction, EndRect, Face, Frustum, Shape};
 use crate::math::{Rect, Vec3};
 
 /// The points `p` with `normal . p + offset >= 0`; zero on the face's plane.
+#[derive(Debug)]
 pub(crate) struct HalfSpace {
     pub(crate) face: Face,
     pub(crate) normal: [Dyadic; 3],

@@ -50,6 +50,7 @@ use num_rational::BigRational;
 use num_traits::{One, Signed, Zero};
 
 /// A frustum made ready for exact questions.
+#[derive(Debug)]
 pub struct Oracle {
     half_spaces: Vec<HalfSpace>,
     /// The ends' `z` if frame coordinates are world coordinates.

@@ -4,6 +4,25 @@
 //! A singular case is only singular if its numbers are. So the [`Solid`]s are
 //! dyadic, and their [`singular_samples`] and [`near_misses`] are carried by a
 //! [`Placement`] to other poses without rounding anything.
+//!
+//! ```
+//! use frusta::samples::{Family, Placement, Solid, singular_samples};
+//! let solid = Solid::SYMMETRIC;
+//! let samples = singular_samples(&solid);
+//! assert_eq!(samples.len(), 78);
+//! let frustum = Placement::IDENTITY.place(&solid)?;
+//! for sample in samples {
+//!     let clip = frustum.clip_segment(&Placement::IDENTITY.segment(&sample.segment))?;
+//!     assert_eq!(clip.class, sample.expected.class);
+//! }
+//!
+//! // A family's case is made from its number alone.
+//! for family in Family::ALL {
+//!     let (frustum, segment) = family.case(7, 1_000_000);
+//!     let _ = frustum.clip_segment(&segment)?;
+//! }
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod family;
 mod placement;

@@ -13,6 +13,7 @@ const GOLDEN: u64 = 0x9e37_79b9_7f4a_7c15;
 
 impl Random {
     /// From several numbers; a change in any of them changes everything.
+    #[must_use]
     pub fn new(parts: &[u64]) -> Self {
         let mut state = Self(0);
         for &part in parts {
@@ -35,9 +36,15 @@ impl Random {
         ((u128::from(self.next_u64()) * u128::from(n)) >> 64) as u64
     }
 
-    /// Uniform in `low..=high`.
+    /// Uniform in `low..=high`, which may be all integers; `low` if `high` is
+    /// less.
     pub fn integer(&mut self, low: i64, high: i64) -> i64 {
-        low + self.below((high - low + 1) as u64) as i64
+        let steps = if high < low { 0 } else { high.abs_diff(low) };
+        let step = match steps.checked_add(1) {
+            Some(count) => self.below(count),
+            None => self.next_u64(),
+        };
+        low.wrapping_add_unsigned(step)
     }
 
     /// Uniform in `0.0..1.0`, a multiple of 2^-53.
@@ -61,6 +68,9 @@ impl Random {
     }
 
     /// One of several values.
+    ///
+    /// # Panics
+    /// There are none.
     pub fn pick<T: Copy>(&mut self, values: &[T]) -> T {
         values[self.below(values.len() as u64) as usize]
     }
@@ -102,5 +112,8 @@ mod tests {
         }
         assert_eq!(seen, [true; 7]);
         assert_eq!(random.power_of_ten(-30, -30), 1e-30);
+        assert_eq!(random.integer(7, 3), 7);
+        let all = [(); 64].map(|()| random.integer(i64::MIN, i64::MAX));
+        assert!(all.iter().any(|i| *i < 0) && all.iter().any(|i| *i > i64::MAX / 2));
     }
 }

@@ -1,6 +1,17 @@
 //! What is said about a run.
 
 use super::{Folder, clip, fixture, statistics, text};
+use serde_json::{Value, json};
+
+/// Names on the command line, and as they are reported.
+const ALGORITHMS: [(&str, &str); 6] = [
+    ("vw", "vw"),
+    ("liang-barsky", "liang-barsky-tuned"),
+    ("liang-barsky-textbook", "liang-barsky-textbook"),
+    ("six-planes", "six-planes"),
+    ("cyrus-beck", "cyrus-beck"),
+    ("cohen-sutherland", "cohen-sutherland"),
+];
 
 #[test]
 fn statistics_have_these_keys_and_add_up() {
@@ -20,8 +31,8 @@ fn statistics_have_these_keys_and_add_up() {
             "classes",
             "clipped_ends",
             "edges",
-            "exact_share",
             "file",
+            "filter_failure_share",
             "format",
             "frustum",
             "not_inward",
@@ -46,7 +57,7 @@ fn statistics_have_these_keys_and_add_up() {
     for key in ["read_s", "clip_s", "write_s", "total_s"] {
         assert!(found["time"][key].as_f64().unwrap() >= 0.0, "{key}");
     }
-    assert_eq!(found["exact_share"], 0.0);
+    assert_eq!(found["filter_failure_share"], 0.0);
 }
 
 #[test]
@@ -62,24 +73,25 @@ fn what_the_filter_does_not_settle_is_counted() {
     let file = folder.write("a.csv", "0,0,-0.9,0.1,0,-0.9\n0,0,-5,0.1,0,-5\n");
     let found = statistics(&[&file, "--frustum", &view]);
     assert_eq!(found["stages"]["filter_failures"], 1);
-    assert_eq!(found["exact_share"], 0.5);
-    let rival = statistics(&[&file, "--frustum", &view, "--algorithm", "cyrus-beck"]);
-    assert_eq!(rival["stages"], serde_json::Value::Null);
-    assert_eq!(rival["classes"], found["classes"]);
+    assert_eq!(found["filter_failure_share"], 0.5);
+    for (rival, _) in ALGORITHMS {
+        let args = [&file, "--frustum", &view, "--algorithm", rival];
+        let exact = statistics(&args);
+        assert_eq!(exact["stages"]["filter_failures"], 1, "{rival}");
+        assert_eq!(exact["stages"]["double_doubles"], 2, "{rival}");
+        assert_eq!(exact["filter_failure_share"], 0.5, "{rival}");
+        assert_eq!(exact["classes"], found["classes"]);
+        let plain = statistics(&[&args[..], &["--arithmetic", "plain"]].concat());
+        assert_eq!(plain["stages"], Value::Null, "{rival}");
+        assert_eq!(plain["filter_failure_share"], Value::Null, "{rival}");
+    }
 }
 
 #[test]
 fn every_algorithm_agrees_on_an_assembly_when_exact() {
     let file = fixture("6814_ice_tunnelator.glb");
     let expected = statistics(&[&file]);
-    for (name, full) in [
-        ("vw", "vw"),
-        ("liang-barsky", "liang-barsky-tuned"),
-        ("liang-barsky-textbook", "liang-barsky-textbook"),
-        ("six-planes", "six-planes"),
-        ("cyrus-beck", "cyrus-beck"),
-        ("cohen-sutherland", "cohen-sutherland"),
-    ] {
+    for (name, full) in ALGORITHMS {
         for precision in ["f32", "f64"] {
             let found = statistics(&[&file, "--algorithm", name, "--precision", precision]);
             assert_eq!(found["algorithm"], full);
@@ -121,6 +133,49 @@ fn the_table_says_the_same_and_how_to_repeat_it() {
     let chosen = text(&clip([&fixture("six.csv")]).stdout);
     assert!(chosen.contains("view          --eye "), "{chosen}");
     assert!(chosen.contains("(chosen from the scene's extent)"));
+}
+
+#[test]
+fn what_a_matrix_conversion_misses_is_reported() {
+    let folder = Folder::new();
+    let file = fixture("six.csv");
+    let matrix = |tilt: f64| {
+        let content = json!({"matrix": [1, 0, 0, 0, 0, 1, 0, 0, 0, tilt, -2, -3, 0, 0, -1, 0],
+            "layout": "row-major", "depth": "-1..1", "precision": "f32"});
+        folder.write("view.json", content.to_string())
+    };
+    let deviation = |view: &str| {
+        let found = statistics(&[&file, "--frustum", view]);
+        let deviation = &found["view"]["deviation"];
+        ["sides", "near", "far"].map(|key| deviation[key].as_f64().unwrap())
+    };
+    let [sides, near, far] = deviation(&matrix(0.0));
+    assert!(sides == 0.0 && near < 1e-15 && far < 1e-15, "{near} {far}");
+    // Near and far not quite parallel to the picture.
+    let [sides, near, far] = deviation(&matrix(1e-6));
+    assert!(sides == 0.0 && near > 1e-7 && far > 1e-7, "{near} {far}");
+    let view = matrix(1e-6);
+    let table = text(&clip([&file, "--frustum", &view]).stdout);
+    let row = "\ndeviation     from the matrix: sides 0.0e0, near ";
+    assert!(table.contains(row), "{table}");
+    let pair = statistics(&[&file, "--frustum", &fixture("pair.json")]);
+    assert_eq!(pair["view"]["deviation"], Value::Null);
+}
+
+#[test]
+fn numbers_of_any_size_are_short() {
+    let folder = Folder::new();
+    let file = folder.write("a.csv", "1e300,0,0,1e300,1,1\n");
+    let flags = "--eye 1e300,0,3 --target 1e300,1e-300,0.5 --up 0,1,0 --fovy 30 --aspect 1.5 \
+                 --near 1e-200 --far inf";
+    let args = [&[file.as_str()], &flags.split(' ').collect::<Vec<_>>()[..]].concat();
+    assert_eq!(statistics(&args)["view"]["flags"], flags);
+    let wrong = clip(args.iter().map(|a| if *a == "inf" { "-1e300" } else { a }));
+    let message = text(&wrong.stderr);
+    assert!(
+        message.contains("far is -1e300; it must be beyond near, 1e-200"),
+        "{message}"
+    );
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! Where the frustum comes from.
 
 use super::{Folder, clip, fixture, statistics, text};
+use frusta::Frustum;
 use serde_json::{Value, json};
 
 /// The rows of `six.csv` in the frustum of a file.
@@ -45,17 +46,32 @@ fn a_camera_by_file_and_by_flags_is_the_same() {
     ]);
     assert_eq!(file["frustum"], flags["frustum"]);
     assert_eq!(file["classes"], flags["classes"]);
-    assert_eq!(file["frustum"]["direction"], 1.0);
+    assert_eq!(file["frustum"]["direction"], json!(1));
 }
 
 #[test]
 fn the_statistics_hold_a_frustum_that_reads_back() {
-    for view in ["pair.json", "infinite.json", "camera.json"] {
-        let first = statistics(&[&fixture("six.csv"), "--frustum", &fixture(view)]);
-        let folder = Folder::new();
+    let off_axis = json!({"matrix": [1, 0, 0.25, 0, 0, 1, -0.125, 0, 0, 0, -2, -3, 0, 0, -1, 0],
+        "layout": "row-major", "depth": "-1..1"});
+    let parallel = json!({"eye": [1, 2, 3], "target": [0, 0, 0.1], "up": [0, 1, 0],
+        "ortho_height": 7, "aspect": 1.3, "near": -5e-324, "far": 1e300});
+    let upwards = json!({"origin": [-0.0, 1e-300, 3], "axes": [[1, 0, 0], [0, -2, 0], [0, 0, 0.1]],
+        "near": {"z": 1, "left": -1, "right": 1, "bottom": 0, "top": 0},
+        "slopes": {"left": -1, "right": 1, "bottom": -1, "top": 0.5}, "direction": 1});
+    let mut views = ["pair.json", "infinite.json", "camera.json"]
+        .map(|name| std::fs::read_to_string(fixture(name)).unwrap())
+        .to_vec();
+    views.extend([off_axis, parallel, upwards].map(|view| view.to_string()));
+    let folder = Folder::new();
+    for view in views {
+        let file = folder.write("view.json", &view);
+        let first = statistics(&[&fixture("six.csv"), "--frustum", &file]);
         let again = folder.write("again.json", first["frustum"].to_string());
         let second = statistics(&[&fixture("six.csv"), "--frustum", &again]);
         assert_eq!(first["frustum"], second["frustum"], "{view}");
+        // The library's own reader knows the form, too.
+        let frustum: Frustum = serde_json::from_value(first["frustum"].clone()).unwrap();
+        assert_eq!(serde_json::to_value(&frustum).unwrap(), first["frustum"]);
     }
 }
 

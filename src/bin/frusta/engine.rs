@@ -40,7 +40,7 @@ pub(crate) enum Accuracy {
     Fast,
     /// Each coordinate and parameter correctly rounded
     Nearest,
-    /// Never outside the frustum
+    /// Never outside, where any representable point near is inside; the rest are counted
     Inward,
 }
 
@@ -55,11 +55,9 @@ impl From<Accuracy> for frusta::Accuracy {
 }
 
 /// What clips.
-pub(crate) enum Engine<T> {
-    /// Exact V/W, which counts the stages of its decisions.
-    Counted(frusta::Accuracy),
-    /// Any other.
-    Other(Box<dyn SegmentClipper<T> + Send + Sync>, frusta::Arithmetic),
+pub(crate) struct Engine<T> {
+    clipper: Box<dyn SegmentClipper<T> + Send + Sync>,
+    arithmetic: frusta::Arithmetic,
 }
 
 impl<T: Real> Engine<T> {
@@ -76,33 +74,29 @@ impl<T: Real> Engine<T> {
             })
         };
         let clipper: Box<dyn SegmentClipper<T> + Send + Sync> = match algorithm {
-            Algorithm::Vw => match arithmetic {
-                frusta::Arithmetic::Exact(accuracy) => return Self::Counted(accuracy),
-                frusta::Arithmetic::Plain => Box::new(VwProjection::plain()),
-            },
+            Algorithm::Vw => Box::new(VwProjection { arithmetic }),
             Algorithm::LiangBarsky => liang_barsky(LiangBarskyVariant::Tuned),
             Algorithm::LiangBarskyTextbook => liang_barsky(LiangBarskyVariant::Textbook),
             Algorithm::SixPlanes => Box::new(SixPlanes { arithmetic }),
             Algorithm::CyrusBeck => Box::new(CyrusBeck { arithmetic }),
             Algorithm::CohenSutherland => Box::new(CohenSutherland { arithmetic }),
         };
-        Self::Other(clipper, arithmetic)
+        Self {
+            clipper,
+            arithmetic,
+        }
     }
 
     /// The algorithm's name.
     pub(crate) fn name(&self) -> &'static str {
-        match self {
-            Self::Counted(_) => "vw",
-            Self::Other(clipper, _) => clipper.name(),
-        }
+        self.clipper.name()
     }
 
     /// Arithmetic and, if that is exact, accuracy.
     pub(crate) fn arithmetic(&self) -> (&'static str, Option<&'static str>) {
-        let accuracy = match self {
-            Self::Counted(accuracy) => accuracy,
-            Self::Other(_, frusta::Arithmetic::Exact(accuracy)) => accuracy,
-            Self::Other(_, frusta::Arithmetic::Plain) => return ("plain", None),
+        let accuracy = match self.arithmetic {
+            frusta::Arithmetic::Exact(accuracy) => accuracy,
+            frusta::Arithmetic::Plain => return ("plain", None),
         };
         let accuracy = match accuracy {
             frusta::Accuracy::Fast => "fast",
@@ -112,9 +106,9 @@ impl<T: Real> Engine<T> {
         ("exact", Some(accuracy))
     }
 
-    /// Whether clipping counts the stages of its decisions.
+    /// Whether there are stages of decisions to count.
     pub(crate) fn counts(&self) -> bool {
-        matches!(self, Self::Counted(_))
+        self.arithmetic != frusta::Arithmetic::Plain
     }
 
     /// Clips a segment.
@@ -125,9 +119,6 @@ impl<T: Real> Engine<T> {
         segment: &Segment<T>,
         stages: &mut StageCounts,
     ) -> Result<SegmentClip<T>, NonFinite> {
-        match self {
-            Self::Counted(accuracy) => frustum.clip_segment_counted(segment, *accuracy, stages),
-            Self::Other(clipper, _) => clipper.clip_segment(frustum, segment),
-        }
+        self.clipper.clip_segment_counted(frustum, segment, stages)
     }
 }

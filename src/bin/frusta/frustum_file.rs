@@ -8,8 +8,8 @@
 use crate::failure::{Failure, quote};
 use crate::number;
 use crate::view::{Lens, Parameters};
-use frusta::frustum::{ClipSpace, ClipY, DepthRange, MatrixLayout, ViewProjection};
-use frusta::{Direction, EndRect, Frustum, Pose, Rect, Shape, Vec3};
+use frusta::frustum::{ClipSpace, ClipY, DepthRange, MatrixFrustum, MatrixLayout, ViewProjection};
+use frusta::{Deviation, Direction, EndRect, Frustum, Pose, Rect, Shape, Vec3};
 use serde_json::{Map, Value};
 use std::path::Path;
 
@@ -17,25 +17,26 @@ use std::path::Path;
 const EXPECTED: &str = "expected an object with origin, axes, near and far (a rect pair), with \
      slopes and direction instead of far (infinite), with eye and target (a camera), or with matrix";
 
-/// Reads a file.
-pub(crate) fn read(file: &Path) -> Result<Frustum, Failure> {
+/// Reads a file; of a matrix, with what its conversion missed.
+pub(crate) fn read(file: &Path) -> Result<(Frustum, Option<Deviation>), Failure> {
     let text = std::fs::read(file).map_err(|e| Failure::in_file(file, e))?;
     let value: Value = serde_json::from_slice(&text)
         .map_err(|e| Failure::in_file(file, format_args!("not JSON: {e}")))?;
     parse(&value).map_err(|why| Failure::in_file(file, why))
 }
 
-fn parse(value: &Value) -> Result<Frustum, String> {
+fn parse(value: &Value) -> Result<(Frustum, Option<Deviation>), String> {
     let Value::Object(map) = value else {
         return Err(format!("found {}; {EXPECTED}", kind(value)));
     };
     let object = Object { path: "", map };
     if map.contains_key("matrix") {
-        matrix(&object)
+        let found = matrix(&object)?;
+        Ok((found.frustum, Some(found.deviation)))
     } else if map.contains_key("eye") || map.contains_key("target") {
-        camera(&object)
+        Ok((camera(&object)?, None))
     } else if map.contains_key("axes") || map.contains_key("origin") {
-        rects(&object)
+        Ok((rects(&object)?, None))
     } else {
         Err(EXPECTED.to_owned())
     }
@@ -59,7 +60,7 @@ fn rects(object: &Object<'_>) -> Result<Frustum, String> {
             direction: match object.number("direction")? {
                 1.0 => Direction::PlusZ,
                 -1.0 => Direction::MinusZ,
-                other => return Err(format!("direction: found {other}; expected 1 or -1")),
+                other => return Err(format!("direction: found {other:?}; expected 1 or -1")),
             },
         }
     } else {
@@ -105,10 +106,9 @@ fn camera(object: &Object<'_>) -> Result<Frustum, String> {
     .map_err(|e| e.to_string())
 }
 
-fn matrix(object: &Object<'_>) -> Result<Frustum, String> {
+fn matrix(object: &Object<'_>) -> Result<MatrixFrustum, String> {
     object.only(&["matrix", "layout", "depth", "reversed", "y", "precision"])?;
     let numbers = object.numbers::<16>("matrix")?;
-    let entries = std::array::from_fn(|i| std::array::from_fn(|j| numbers[4 * i + j]));
     let layout = match object.choice("layout", &["column-major", "row-major"], false)? {
         0 => MatrixLayout::ColumnMajorColumnVectors,
         _ => MatrixLayout::RowMajorColumnVectors,
@@ -130,12 +130,10 @@ fn matrix(object: &Object<'_>) -> Result<Frustum, String> {
     };
     // The precision tells how much of the entries is rounding.
     let found = match object.choice("precision", &["f64", "f32"], true)? {
-        0 => ViewProjection::new(entries, layout).frustum(clip),
-        _ => {
-            ViewProjection::new(entries.map(|row| row.map(|e: f64| e as f32)), layout).frustum(clip)
-        }
+        0 => ViewProjection::from_flat(numbers, layout).frustum(clip),
+        _ => ViewProjection::from_flat(numbers.map(|e| e as f32), layout).frustum(clip),
     };
-    found.map(|f| f.frustum).map_err(|e| format!("matrix: {e}"))
+    found.map_err(|e| format!("matrix: {e}"))
 }
 
 /// An object and where in the file it is.

@@ -19,7 +19,9 @@ impl Scalar for f64 {
     const NAME: &'static str = "f64";
 }
 
-/// Reads a decimal or a hexadecimal float (`0x1.8p-3`), correctly rounded.
+/// Reads a decimal, correctly rounded, or a hexadecimal float (`0x1.8p-3`),
+/// which is rounded once for a single and refused where no double equals it:
+/// who writes those wants these bits.
 pub(crate) fn parse<T: Scalar>(text: &str) -> Result<T, String> {
     let digits = text.trim_start_matches(['+', '-']);
     if digits.starts_with("0x") || digits.starts_with("0X") {
@@ -58,6 +60,12 @@ pub(crate) fn write<T: Scalar>(value: T, out: &mut Vec<u8>) {
     let mut buffer = zmij::Buffer::new();
     let text = buffer.format_finite(value);
     out.extend_from_slice(text.strip_suffix(".0").unwrap_or(text).as_bytes());
+}
+
+/// The same for flags and messages, in the library's notation of them.
+pub(crate) fn short(value: f64) -> String {
+    let text = format!("{value:?}");
+    text.strip_suffix(".0").unwrap_or(&text).to_owned()
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! What a run did, for people and for programs.
 
-use frusta::{Class, EndRect, Frustum, Rect, SegmentClip, Shape, StageCounts};
+use frusta::{Class, Deviation, Frustum, SegmentClip, StageCounts};
 use serde_json::{Value, json};
 use std::fmt::Write;
 use std::time::Duration;
@@ -14,7 +14,7 @@ pub(crate) struct Counts {
     pub(crate) clipped_ends: u64,
     /// Clipped ends that are not proven inside (all, unless asked for inward).
     pub(crate) not_inward: u64,
-    /// How far the exact decisions had to go.
+    /// Which stages the exact decisions needed.
     pub(crate) stages: StageCounts,
 }
 
@@ -37,10 +37,7 @@ impl Counts {
         }
         self.clipped_ends += other.clipped_ends;
         self.not_inward += other.not_inward;
-        self.stages.filter_failures += other.stages.filter_failures;
-        self.stages.double_doubles += other.stages.double_doubles;
-        self.stages.expansions += other.stages.expansions;
-        self.stages.integers += other.stages.integers;
+        self.stages += other.stages;
     }
 
     /// How many segments there were.
@@ -72,6 +69,8 @@ pub(crate) struct Report<'a> {
     pub(crate) threads: usize,
     pub(crate) flags: &'a str,
     pub(crate) chosen: bool,
+    /// Of a frustum from a matrix.
+    pub(crate) deviation: Option<Deviation>,
     pub(crate) frustum: &'a Frustum,
     pub(crate) output: Option<String>,
     pub(crate) counts: Counts,
@@ -81,8 +80,9 @@ pub(crate) struct Report<'a> {
 }
 
 impl Report<'_> {
-    /// The share of segments that the floating-point filter did not settle.
-    fn exact_share(&self) -> Option<f64> {
+    /// The share of segments of which the floating-point filter left a sign
+    /// open. Later stages settled it, double-double included.
+    fn filter_failure_share(&self) -> Option<f64> {
         let segments = self.counts.segments().max(1) as f64;
         let failures = self.counts.stages.filter_failures as f64;
         self.staged.then_some(failures / segments)
@@ -96,14 +96,6 @@ impl Report<'_> {
             .zip(counts.classes)
             .map(|(class, count)| (class.name().to_owned(), json!(count)))
             .collect();
-        let stages = self.staged.then(|| {
-            json!({
-                "filter_failures": counts.stages.filter_failures,
-                "double_doubles": counts.stages.double_doubles,
-                "expansions": counts.stages.expansions,
-                "integers": counts.stages.integers,
-            })
-        });
         json!({
             "file": self.file,
             "format": self.format,
@@ -112,15 +104,20 @@ impl Report<'_> {
             "classes": classes,
             "clipped_ends": counts.clipped_ends,
             "not_inward": counts.not_inward,
-            "stages": stages,
-            "exact_share": self.exact_share(),
+            "stages": self.staged.then_some(counts.stages),
+            "filter_failure_share": self.filter_failure_share(),
             "algorithm": self.algorithm,
             "arithmetic": self.arithmetic,
             "accuracy": self.accuracy,
             "precision": self.precision,
             "threads": self.threads,
-            "view": { "flags": self.flags, "chosen": self.chosen },
-            "frustum": frustum_json(self.frustum),
+            "view": {
+                "flags": self.flags,
+                "chosen": self.chosen,
+                "deviation": self.deviation.as_ref().map(deviation_json),
+            },
+            // In the form that `--frustum` and the library read.
+            "frustum": self.frustum,
             "output": self.output,
             "time": {
                 "read_s": self.times.read.as_secs_f64(),
@@ -144,14 +141,18 @@ impl Report<'_> {
         let mut rows = vec![
             ("file", format!("{} ({}{edges})", self.file, self.format)),
             ("view", format!("{}{chosen}", self.flags)),
-            (
-                "algorithm",
-                format!(
-                    "{}, {}{accuracy}, {}",
-                    self.algorithm, self.arithmetic, self.precision
-                ),
-            ),
         ];
+        if let Some(Deviation { sides, near, far }) = self.deviation {
+            let row = format!("from the matrix: sides {sides:.1e}, near {near:.1e}, far {far:.1e}");
+            rows.push(("deviation", row));
+        }
+        rows.push((
+            "algorithm",
+            format!(
+                "{}, {}{accuracy}, {}",
+                self.algorithm, self.arithmetic, self.precision
+            ),
+        ));
         self.count_rows(&mut rows);
         rows.push(("time", self.time_row()));
         if let Some(bytes) = peak_memory() {
@@ -181,15 +182,15 @@ impl Report<'_> {
         if self.accuracy == Some("inward") {
             rows.push(("not inward", grouped(counts.not_inward)));
         }
-        if let Some(share) = self.exact_share() {
+        if let Some(share) = self.filter_failure_share() {
             let row = format!(
-                "{:.4} % of the segments; {} signs by double-double, {} by expansions, {} by integers",
+                "{:.4} % of the segments; later stages gave {} signs by double-double, {} by expansions, {} by integers",
                 100.0 * share,
                 grouped(counts.stages.double_doubles),
                 grouped(counts.stages.expansions),
                 grouped(counts.stages.integers)
             );
-            rows.push(("exact stage", row));
+            rows.push(("filter failed", row));
         }
     }
 
@@ -207,30 +208,20 @@ impl Report<'_> {
     }
 }
 
-/// The frustum in the form that `--frustum` reads.
-fn frustum_json(frustum: &Frustum) -> Value {
-    let rect =
-        |r: Rect| json!({"left": r.left, "right": r.right, "bottom": r.bottom, "top": r.top});
-    let end = |e: EndRect| {
-        let r = e.rect;
-        json!({"z": e.z, "left": r.left, "right": r.right, "bottom": r.bottom, "top": r.top})
-    };
-    let pose = frustum.pose();
-    let mut value = json!({
-        "origin": pose.origin.to_array(),
-        "axes": pose.axes.map(|a| a.to_array()),
-        "near": end(frustum.shape().near()),
-    });
-    match *frustum.shape() {
-        Shape::Finite { far, .. } => value["far"] = end(far),
-        Shape::Infinite {
-            slopes, direction, ..
-        } => {
-            value["slopes"] = rect(slopes);
-            value["direction"] = json!(direction.sign());
+/// A matrix's deviation; JSON has no infinity.
+fn deviation_json(deviation: &Deviation) -> Value {
+    let number = |value: f64| {
+        if value.is_finite() {
+            json!(value)
+        } else {
+            json!("inf")
         }
-    }
-    value
+    };
+    json!({
+        "sides": number(deviation.sides),
+        "near": number(deviation.near),
+        "far": number(deviation.far),
+    })
 }
 
 /// Digits in groups of three.

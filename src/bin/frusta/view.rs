@@ -4,9 +4,9 @@
 use crate::failure::Failure;
 use crate::frustum_file;
 use crate::input::Bounds;
-use crate::number;
+use crate::number::{self, short};
 use clap::Args;
-use frusta::{Camera, Frustum, FrustumError, Projection, Vec3};
+use frusta::{Camera, Deviation, Frustum, FrustumError, Projection, Vec3};
 use std::fmt::{self, Display};
 use std::path::PathBuf;
 
@@ -49,6 +49,8 @@ pub(crate) struct ViewArgs {
 pub(crate) struct View {
     /// The frustum.
     pub(crate) frustum: Frustum,
+    /// Of a matrix: what its conversion missed.
+    pub(crate) deviation: Option<Deviation>,
     /// Flags that give it again.
     pub(crate) flags: String,
     /// Whether it was chosen from the scene's extent.
@@ -63,8 +65,10 @@ impl ViewArgs {
         bounds: impl FnOnce() -> Result<Bounds, Failure>,
     ) -> Result<View, Failure> {
         if let Some(file) = &self.frustum {
+            let (frustum, deviation) = frustum_file::read(file)?;
             return Ok(View {
-                frustum: frustum_file::read(file)?,
+                frustum,
+                deviation,
                 flags: format!("--frustum {}", file.display()),
                 chosen: false,
             });
@@ -88,6 +92,7 @@ impl ViewArgs {
             .map_err(|e| Failure::new(format_args!("no frustum from {parameters}: {e}")))?;
         Ok(View {
             frustum,
+            deviation: None,
             flags: parameters.to_string(),
             chosen,
         })
@@ -198,16 +203,19 @@ impl Parameters {
 impl Display for Parameters {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         for (name, p) in [("eye", self.eye), ("target", self.target), ("up", self.up)] {
-            write!(f, "--{name} {},{},{} ", p.x, p.y, p.z)?;
+            let [x, y, z] = p.to_array().map(short);
+            write!(f, "--{name} {x},{y},{z} ")?;
         }
         match self.lens {
-            Lens::Fovy(degrees) => write!(f, "--fovy {degrees} ")?,
-            Lens::Ortho(height) => write!(f, "--ortho {height} ")?,
+            Lens::Fovy(degrees) => write!(f, "--fovy {} ", short(degrees))?,
+            Lens::Ortho(height) => write!(f, "--ortho {} ", short(height))?,
         }
         write!(
             f,
             "--aspect {} --near {} --far {}",
-            self.aspect, self.near, self.far
+            short(self.aspect),
+            short(self.near),
+            short(self.far)
         )
     }
 }

@@ -118,6 +118,7 @@ fn run_as<T: Scalar>(args: &ClipArgs) -> Result<(), Failure> {
         threads: run.threads,
         flags: &view.flags,
         chosen: view.chosen,
+        deviation: view.deviation,
         frustum: &view.frustum,
         output: args.output.as_ref().map(|o| o.display().to_string()),
         counts,
@@ -156,6 +157,14 @@ Output, whole or not at all
   .svg  what the camera sees, from the near rectangle's side, hidden lines included; places are
         rounded to a tenth of a pixel, or more where the strokes would be too many for a viewer.
 
+Statistics (a table, or --json), among others
+  filter_failure_share  of the segments, how many had a sign that the floating-point filter left
+        open, whichever later stage settled it, double-double included. stages has their number,
+        and how many signs and values each later stage gave. Null for --arithmetic plain.
+  not_inward  clipped points that are not proven inside: all, but for --accuracy inward.
+  view.deviation  of a frustum from a matrix: by how much its vertices miss the matrix's exact clip
+        volume; sides in X / W and Y / W, near and far as fractions of their distances.
+
 Frustum files (--frustum); any number may be a text with a hexadecimal float
   {\"origin\":[0,0,0], \"axes\":[[1,0,0],[0,1,0],[0,0,1]],
    \"near\":{\"z\":-1,\"left\":-1,\"right\":1,\"bottom\":-1,\"top\":1}, \"far\":{...}}
@@ -175,5 +184,6 @@ Examples
   frusta clip edges.csv --eye 0,0,5 --target 0,0,0 --near 1 --far inf -o clipped.csv
       every row's part in an infinite frustum
   frusta clip edges.csv --frustum view.json --accuracy inward --json
-      statistics, with clipped points that never lie outside
+      statistics, with clipped points that are never outside, where any representable point near
+      is inside; the rest are counted (not_inward)
 ";
