@@ -30,6 +30,7 @@ mod dyadic;
 mod gauge;
 mod half_space;
 mod inward;
+mod near;
 mod reference;
 mod round;
 mod violation;

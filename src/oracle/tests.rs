@@ -296,3 +296,42 @@ fn input_that_is_not_finite_is_refused() {
         Vec3::new(2.0_f64.next_up(), -2.0, 2.0)
     ));
 }
+
+#[test]
+fn near_is_four_ulps_and_no_more() {
+    let near = EndRect::new(1.0, -1.0, 1.0, -1.0, 1.0);
+    let far = EndRect::new(3.0, -1.0, 1.0, -1.0, 1.0);
+    let frustum = Frustum::new(Pose::IDENTITY, Shape::Finite { near, far }).unwrap();
+    let oracle = Oracle::new(&frustum);
+    let ulp = f64::EPSILON;
+    let is_near = |a: [f64; 3], b: [f64; 3]| {
+        let s = Segment::new(a, b);
+        assert_eq!(oracle.is_near(&s), oracle.is_near(&s.reversed()));
+        oracle.is_near(&s)
+    };
+    let inside = [0.25, 0.5, 2.0];
+    // An end at a face, on either side.
+    for (n, expected) in [(0.0, true), (4.0, true), (5.0, false), (-2.0, true)] {
+        assert_eq!(is_near([1.0 + n * ulp, 0.5, 2.0], inside), expected, "{n}");
+    }
+    // At a face's plane, but far from the face.
+    assert!(!is_near([1.0, 3.0, 2.0], [2.0, 3.0, 2.0]));
+    // Through the middles of faces.
+    assert!(!is_near([-4.0, 0.5, 2.0], [4.0, 0.5, 2.0]));
+    // Past the edge of right and top, outside.
+    let past = |n: f64| is_near([0.5, 1.5 + n * ulp, 2.0], [1.5 + n * ulp, 0.5, 2.0]);
+    assert!(past(0.0) && past(2.0) && !past(16.0));
+    // Along a face and beyond it at both ends.
+    assert!(is_near([1.0 + 3.0 * ulp, -2.0, 2.0], [1.0, 2.0, 2.0]));
+    assert!(!is_near(
+        [1.0 + 64.0 * ulp, -2.0, 2.0],
+        [1.0 + 64.0 * ulp, 2.0, 2.0]
+    ));
+    assert!(!is_near([f64::NAN, 0.0, 0.0], inside));
+    // Zero has the ulp of its point.
+    let plane = EndRect::new(0.0, -1.0, 1.0, -1.0, 1.0);
+    let frustum = Frustum::new(Pose::IDENTITY, Shape::Finite { near: plane, far }).unwrap();
+    let oracle = Oracle::new(&frustum);
+    let from = |z: f64| oracle.is_near(&Segment::new([0.5, 0.5, z], inside));
+    assert!(from(0.0) && from(5e-324) && !from(1e-15));
+}

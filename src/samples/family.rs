@@ -2,9 +2,11 @@
 //!
 //! A case is known by its family, a seed and an index, and can be made alone, on
 //! any machine, with the same bits. [`BLOCK`] cases in a row share a frustum,
-//! because making one costs more than clipping by it. Every family takes care
-//! that at least half of its cases lie within a few ulp of a vertex, an edge or a
-//! face, where wrong answers live. A case is one shape of segment (ending near a
+//! because making one costs more than clipping by it. In every family at least
+//! half of the cases are within 4 ulp of a singular one, where wrong answers live:
+//! an end within 4 ulp a coordinate of a vertex, an edge or a face, or a line that
+//! passes as close by a vertex or an edge (`oracle::Oracle::is_near` says it
+//! exactly; a line through the middle of a face does not count). A case is one shape of segment (ending near a
 //! feature, passing through one, joining two, along a face, ...) on one kind of
 //! frustum; what a family changes is said by [`Family::describe`].
 
@@ -64,12 +66,12 @@ families! {
     NarrowView "narrow-view" "Full fields of view of 1e-3 degrees and 1e-8 radians.";
     WideView "wide-view" "A full field of view of 179.999999 degrees.";
     Aspect "aspect" "Width over height 1e6 and 1e-6.";
-    FarFromOrigin "far-from-origin" "Coordinates of 1e15 with features of 1e-3, which are not representable there, and of a few ulp (0.125 each).";
+    FarFromOrigin "far-from-origin" "Coordinates of 1e15: features of 1e-3, which are not representable there, and of a few ulp (0.125 each).";
     Subnormal "subnormal" "All numbers are small multiples of the least positive double.";
     ProductsUnderflow "products-underflow" "Coordinates of 1e-160: products underflow.";
     ProductsOverflow "products-overflow" "Coordinates of 1e155: products overflow.";
     Huge "huge" "Coordinates of 1e300: differences may overflow.";
-    SingleFar "single-far" "Coordinates of 1e7 and 3e10 with features of a few ulp of f32.";
+    SingleFar "single-far" "Coordinates of 1e7, 3e10 and 1e15 with features of a few ulp of f32.";
     NearFace "near-face" "Both ends 0, 1 or 2 ulp from one face.";
     NearlyParallel "nearly-parallel" "Along a face, the direction within an ulp of parallel.";
     CrossingNearEnds "crossing-near-ends" "Crossing parameters within 2^-53 of 0 and 1.";
@@ -127,6 +129,7 @@ impl Family {
                 | Self::CrossingClose
                 | Self::MixedScale
                 | Self::FlatDepth
+                | Self::FarFromOrigin
         )
     }
 }

@@ -46,12 +46,12 @@ impl Scene {
             scene.solid = Some(solid);
             return Some(scene);
         }
-        let mut shape = stiff::shape(family, random);
+        let mut shape = stiff::shape(family, block, random);
         if stiff::is_ordinary(family) && random.one_in(2) {
             // So that points of f32 can lie exactly on its faces.
             shape = shape_in_singles(&shape);
         }
-        match stiff::pose(family, random) {
+        match stiff::pose(family, block, random) {
             Some(pose) => Self::posed(shape, pose),
             None => Self::placed(shape, stiff::placement(family, random)),
         }
@@ -116,11 +116,13 @@ impl Scene {
     }
 }
 
-/// How far to go in an infinite frustum: a few times the near end's width.
+/// How far to go in an infinite frustum: a few times the near end's width, or
+/// its depth if it is a point, so that the grid is of the frustum's own scale.
 fn reach(shape: &Shape) -> f64 {
-    let near = shape.near().rect;
+    let EndRect { z, rect: near } = shape.near();
     let width = (near.right - near.left).max(near.top - near.bottom);
-    if width > 0.0 { 4.0 * width } else { 4.0 }
+    let sizes = [width, z.abs(), 1.0];
+    4.0 * sizes.into_iter().find(|&s| s > 0.0).unwrap_or(1.0)
 }
 
 /// The shape with every number rounded to `f32`.

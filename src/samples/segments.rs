@@ -289,7 +289,7 @@ impl Aim<'_> {
     }
 
     fn near_ends<T: Real>(&mut self) -> Segment<T> {
-        let segment = if self.random.one_in(2) {
+        let segment = if self.random.one_in(3) {
             // Dense doubles at the planes through zero: any parameter at all.
             let inside = self.at::<T>([0.5, 0.5, 0.5]);
             let mut start = self.at::<T>([0.25, 0.75, 0.5]);

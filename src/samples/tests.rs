@@ -120,6 +120,33 @@ mod against_the_oracle {
         }
     }
 
+    /// The share of cases within 4 ulp of a feature.
+    fn share_near<T: crate::math::Real>(family: Family) -> f64 {
+        let (mut near, mut cases) = (0, 0);
+        for block in 0..40 {
+            let scene = family.scene(1, block);
+            let oracle = Oracle::new(scene.frustum());
+            for index in block * BLOCK..block * BLOCK + 32 {
+                let segment = family.segment::<T>(&scene, 1, index);
+                near += u32::from(oracle.is_near(&segment));
+                cases += 1;
+            }
+        }
+        f64::from(near) / f64::from(cases)
+    }
+
+    #[test]
+    fn half_of_the_cases_are_near_a_feature() {
+        for &family in Family::ALL {
+            let share = share_near::<f64>(family);
+            assert!(share >= 0.5, "{family}: {share}");
+            if family.has_f32() {
+                let share = share_near::<f32>(family);
+                assert!(share >= 0.5, "{family} in f32: {share}");
+            }
+        }
+    }
+
     #[test]
     fn close_crossings_are_closer_than_promised() {
         let bound = BigRational::new(1.into(), num_bigint::BigInt::from(1) << 100);
@@ -211,4 +238,76 @@ fn no_family_falls_back_on_another_shape() {
         let made = made.count();
         assert!(made > 250, "{family}: {made} of 400");
     }
+}
+
+/// The smallest and the largest of the cases' largest coordinates.
+fn extent<T: crate::math::Real>(family: Family) -> [f64; 2] {
+    let mut found = [f64::INFINITY, 0.0_f64];
+    for block in 0..100 {
+        let scene = family.scene(11, block);
+        for index in block * BLOCK..block * BLOCK + 16 {
+            let segment = family.segment::<T>(&scene, 11, index);
+            let ends = [segment.start, segment.end].map(|p| p.to_f64().to_array());
+            let most = ends
+                .concat()
+                .into_iter()
+                .fold(0.0, |a: f64, b| a.max(b.abs()));
+            found = [found[0].min(most), found[1].max(most)];
+        }
+    }
+    found
+}
+
+#[test]
+fn coordinates_are_as_large_as_claimed() {
+    for (family, low, high) in [
+        (Family::FarFromOrigin, 0.999e15, 1.001e15),
+        (Family::SingleFar, 0.99e7, 1.01e15),
+        (Family::EarthCentred, 0.5 * 6.378e6, 2.0 * 6.378e6),
+        (Family::Astronomical, 1e17, 1e19),
+        (Family::Subnormal, 5e-324, f64::MIN_POSITIVE),
+        (Family::ProductsUnderflow, 1e-162, 1e-155),
+        (Family::ProductsOverflow, 1e153, 1e160),
+        (Family::Huge, 1e296, 1e305),
+    ] {
+        let [least, most] = extent::<f64>(family);
+        assert!(least >= low && most <= high, "{family}: {least:e} {most:e}");
+        if family.has_f32() {
+            let [least, most] = extent::<f32>(family);
+            assert!(least >= low && most <= high, "{family}: {least:e} {most:e}");
+        }
+    }
+}
+
+/// The mix must not depend on which shapes come out flat and are drawn again.
+#[test]
+fn far_away_there_are_two_kinds_in_equal_shares() {
+    let mut small = 0;
+    for block in 0..400 {
+        let scene = Family::FarFromOrigin.scene(11, block);
+        let (origin, near) = (
+            scene.frustum().pose().origin,
+            scene.frustum().shape().near(),
+        );
+        let at_origin = origin.x.abs() > 0.99e15;
+        assert_eq!(at_origin, near.z.abs() < 1e-2, "{block}");
+        assert!(at_origin || near.z.abs() > 0.99e15, "{block}");
+        small += usize::from(at_origin);
+    }
+    assert_eq!(small, 200);
+}
+
+#[test]
+fn single_precision_is_strained_at_each_distance() {
+    let mut blocks = [0; 3];
+    for block in 0..400 {
+        let scene = Family::SingleFar.scene(11, block);
+        let z = scene.frustum().shape().near().z.abs();
+        let at = [1e7, 3e10, 1e15].map(|far: f64| (z / far - 1.0).abs() < 1e-3);
+        assert_eq!(at.iter().filter(|&&is| is).count(), 1, "{z:e}");
+        at.iter()
+            .zip(&mut blocks)
+            .for_each(|(&is, n)| *n += usize::from(is));
+    }
+    assert!(blocks.iter().all(|&n| n > 90), "{blocks:?}");
 }
