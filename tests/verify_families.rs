@@ -15,6 +15,9 @@ fn the_exact_clipper_is_clean_in_every_family() {
     let rows = verify(&ExactClipper, &options, |_| {});
     let table = VerifyTable(&rows);
     assert!(rows.iter().all(|row| row.is_clean()), "\n{table}");
+    for row in &rows {
+        assert!(2 * row.near >= row.cases, "{}\n{table}", row.family);
+    }
     // Each stage of the predicates must have been reached.
     let reached =
         |stage: fn(&frusta::report::FamilyRow) -> u64| rows.iter().map(stage).sum::<u64>();

@@ -122,6 +122,8 @@ pub struct FamilyRow {
     /// In how many cases each kind of violation was found, in the order of
     /// [`ViolationKind::ALL`].
     pub violations: [u64; ViolationKind::ALL.len()],
+    /// Cases within 4 ulp of a singular one: [`Oracle::is_near`].
+    pub near: u64,
     /// Cases that the floating-point filter did not settle (with `Fast`).
     pub filter_failures: u64,
     /// Cases that needed expansions (with `Fast`).
@@ -164,6 +166,7 @@ impl FamilyRow {
             scalar,
             cases: 0,
             violations: [0; ViolationKind::ALL.len()],
+            near: 0,
             filter_failures: 0,
             expansions: 0,
             integers: 0,
@@ -182,6 +185,7 @@ impl FamilyRow {
         for (a, b) in self.violations.iter_mut().zip(other.violations) {
             *a += b;
         }
+        self.near += other.near;
         self.filter_failures += other.filter_failures;
         self.expansions += other.expansions;
         self.integers += other.integers;
@@ -377,6 +381,7 @@ impl<'a, T: Scalar> Run<'a, T> {
             }
         }
         self.row.cases += 1;
+        self.row.near += u64::from(self.oracle.is_near(segment));
         for (i, &kind) in ViolationKind::ALL.iter().enumerate() {
             let any = found.iter().any(|(_, v)| v.kind == kind);
             self.row.violations[i] += u64::from(any);

@@ -24,16 +24,24 @@ const COLUMNS: [(&str, &[Kind]); 7] = [
 
 const WIDTH: usize = 120;
 
+/// How wide a column of violations is.
+const fn width(name: &str) -> usize {
+    if name.len() > 5 { name.len() } else { 5 }
+}
+
 impl VerifyTable<'_> {
     /// The columns' names.
     pub fn heading() -> String {
-        let mut line = format!("{:<18} {:>3} {:>9}", "family", "", "cases");
+        let mut line = format!("{:<18} {:>3} {:>8}", "family", "", "cases");
         for (name, _) in COLUMNS {
-            line += &format!(" {name:>6}");
+            line += &format!(" {name:>0$}", width(name));
         }
-        let shares = ["filt.%", "exp.%", "int.%", "none%", "G7max", "mean"];
-        let [filter, expansions, integers, none, max, mean] = shares;
-        line + &format!(" {filter:>6} {expansions:>5} {integers:>5} {none:>5} {max:>6} {mean:>5}")
+        let names = [
+            "near%", "filt.%", "exp.%", "int.%", "none%", "G7max", "mean",
+        ];
+        let [near, filter, expansions, integers, none, max, mean] = names;
+        line += &format!(" {near:>5} {filter:>6} {expansions:>5} {integers:>5} {none:>5}");
+        line + &format!(" {max:>6} {mean:>5}")
     }
 
     /// What follows the families' lines: their sum, and the first witnesses.
@@ -84,10 +92,10 @@ impl fmt::Display for FamilyRow {
 }
 
 fn line(f: &mut fmt::Formatter<'_>, name: &str, scalar: &str, row: &FamilyRow) -> fmt::Result {
-    write!(f, "{name:<18} {scalar:>3} {:>9}", row.cases)?;
-    for (_, kinds) in COLUMNS {
+    write!(f, "{name:<18} {scalar:>3} {:>8}", row.cases)?;
+    for (name, kinds) in COLUMNS {
         let count: u64 = kinds.iter().map(|&k| row.count(k)).sum();
-        write!(f, " {count:>6}")?;
+        write!(f, " {count:>0$}", width(name))?;
     }
     let share = |n: u64, of: u64| {
         let percent = 100.0 * n as f64 / of.max(1) as f64;
@@ -97,7 +105,8 @@ fn line(f: &mut fmt::Formatter<'_>, name: &str, scalar: &str, row: &FamilyRow) -
     };
     write!(
         f,
-        " {:>6} {:>5} {:>5} {:>5} {:>6.3} {:>5.2}",
+        " {:>5} {:>6} {:>5} {:>5} {:>5} {:>6.3} {:>5.2}",
+        share(row.near, row.cases),
         share(row.filter_failures, row.cases),
         share(row.expansions, row.cases),
         share(row.integers, row.cases),

@@ -73,6 +73,18 @@ fn every_family_is_verified_a_line_each() {
     assert!(last.starts_with("all") && last.contains(&format!(" {total} ")));
 }
 
+/// What the command verifies by default: ten million cases, 100,000 a family.
+#[test]
+fn the_default_is_as_many_cases_as_promised() {
+    let help = text(&frusta(&["verify", "--help"]).stdout);
+    let default = help.split("[default: ").nth(1).unwrap();
+    let cases: usize = default.split(']').next().unwrap().parse().unwrap();
+    let list = text(&frusta(&["verify", "--list"]).stdout);
+    let singles = list.lines().filter(|l| l.contains(" f64 f32 ")).count();
+    let total = cases * (list.lines().count() + singles);
+    assert!(cases >= 100_000 && total > 10_000_000, "{cases} {total}");
+}
+
 #[test]
 fn threads_do_not_change_what_is_verified() {
     let with = |threads| {
@@ -87,6 +99,7 @@ fn threads_do_not_change_what_is_verified() {
             "family",
             "scalar",
             "cases",
+            "near",
             "filter_failures",
             "inward_ends",
         ] {
@@ -95,6 +108,9 @@ fn threads_do_not_change_what_is_verified() {
         assert_eq!(a["cases"], 300);
         assert_eq!(a["wrong_class"], 0);
         assert_eq!(a["witness"], Value::Null);
+    }
+    for row in &one {
+        assert!(row["near"].as_u64().unwrap() >= 150, "{row}");
     }
     assert_eq!(one[2]["family"], "thin");
     assert!(one[2]["filter_failures"].as_u64().unwrap() > 0);

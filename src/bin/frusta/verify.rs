@@ -18,7 +18,7 @@ use std::process::ExitCode;
 #[command(after_long_help = LEGEND)]
 pub(crate) struct VerifyArgs {
     /// Cases of each family in f64, and as many in f32 where the family has it
-    #[arg(long, value_name = "COUNT", default_value = "100000")]
+    #[arg(long, value_name = "COUNT", default_value = "150000")]
     #[arg(value_parser = clap::value_parser!(u64).range(1..=MOST_CASES))]
     cases: u64,
     /// Which cases
@@ -98,6 +98,7 @@ fn to_json(row: &FamilyRow, seed: u64) -> Value {
         "scalar": row.scalar,
         "seed": seed,
         "cases": row.cases,
+        "near": row.near,
         "filter_failures": row.filter_failures,
         "expansions": row.expansions,
         "integers": row.integers,
@@ -122,6 +123,7 @@ Columns
   points       a point or parameter outside its accuracy's bound
   inward       an inward point is outside, or one was missed
   G5 G6        swapped ends give something else; an inward part clips to something else
+  near%        cases with an end within 4 ulp of a face, or a line so close to an edge or vertex
   filt.%       cases that the floating-point filter did not settle
   exp.% int.%  cases that needed expansions; that needed big integers
   none%        inward ends for which there is no representable point inside
@@ -129,8 +131,8 @@ Columns
 After the sum comes the first witness of each family in which something is wrong, in hexadecimal.
 
 Examples
-  frusta verify --cases 250000
-      18 million cases, at least 250,000 a family
+  frusta verify
+      10.8 million cases, at least 150,000 a family
   frusta verify --family mixed-scale --seed 7 --json
 
 Exit codes:
