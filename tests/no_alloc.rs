@@ -4,9 +4,12 @@
 #[expect(dead_code, unused_imports, reason = "the benchmarks need more of it")]
 mod mixes;
 
-use frusta::samples::{BLOCK, Family, Placement};
-use frusta::{Accuracy, Frustum, Pose, Real, Segment, StageCounts};
-use mixes::{Form, Mix, frustum, poses, samples};
+use frusta::samples::{BLOCK, Family, Placement, Solid, singular_samples};
+use frusta::{Accuracy, Frustum, Pose, Real, Segment, SegmentClipper, StageCounts, Vec3};
+use mixes::answers::{exact, plain};
+use mixes::{Form, Mix, frustum, poses};
+
+const ACCURACIES: [Accuracy; 3] = [Accuracy::Fast, Accuracy::Nearest, Accuracy::Inward];
 
 /// Allocations while a segment is clipped, and what it needed.
 fn clip<T: Real>(
@@ -31,7 +34,7 @@ struct Tally {
 
 impl Tally {
     fn add<T: Real>(&mut self, frustum: &Frustum, segment: &Segment<T>) {
-        for accuracy in [Accuracy::Fast, Accuracy::Nearest] {
+        for accuracy in ACCURACIES {
             let (allocations, counts) = clip(frustum, segment, accuracy);
             if allocations == 0 {
                 self.without += 1;
@@ -50,6 +53,35 @@ impl Tally {
 fn the_counter_counts() {
     let info = allocation_counter::measure(|| drop(std::hint::black_box(vec![1, 2, 3])));
     assert_eq!(info.count_total, 1);
+}
+
+/// Asserts that clippers allocate nothing.
+#[track_caller]
+fn assert_none<T: Real>(
+    clippers: &[Box<dyn SegmentClipper<T>>],
+    frustum: &Frustum,
+    segments: &[Segment<T>],
+) {
+    for clipper in clippers {
+        for segment in segments {
+            let info = allocation_counter::measure(|| {
+                assert!(clipper.clip_segment(frustum, segment).is_ok());
+            });
+            assert_eq!(info.count_total, 0, "{} on {segment:?}", clipper.name());
+        }
+    }
+}
+
+/// The 78 at a placement, each once.
+fn samples<T: Real>(placement: &Placement) -> (Frustum, Vec<Segment<T>>) {
+    let solid = Solid::SYMMETRIC;
+    let placed = |s: Segment<f64>| {
+        let s = placement.segment(&s);
+        Segment::new(Vec3::from_f64(s.start), Vec3::from_f64(s.end))
+    };
+    let all = singular_samples(&solid);
+    let segments = all.iter().map(|sample| placed(sample.segment)).collect();
+    (placement.place(&solid).unwrap(), segments)
 }
 
 #[test]
@@ -72,15 +104,64 @@ fn realistic_mixes_allocate_nothing() {
     assert_eq!(tally.with, 0, "{tally:?}");
 }
 
+/// Every algorithm, plain and with exact decisions.
+#[test]
+fn no_algorithm_allocates_on_realistic_mixes() {
+    fn mix<T: Real>(form: Form, pose: &Pose, mix: Mix) {
+        let (frustum, segments) = (frustum(form.shape(), pose), mix.segments::<T>(pose));
+        assert_none(&plain(), &frustum, &segments);
+        assert_none(&exact(Accuracy::Fast), &frustum, &segments);
+    }
+    for (_, pose) in poses() {
+        for form in Form::ALL {
+            for which in Mix::ALL {
+                mix::<f64>(form, &pose, which);
+                mix::<f32>(form, &pose, which);
+            }
+        }
+    }
+}
+
 /// Touching and running along faces costs no allocation where the coordinates
 /// are a designer's.
 #[test]
-fn the_singular_samples_allocate_nothing_in_the_frame() {
-    let (frustum, segments) = samples::<f64>(&Placement::IDENTITY);
-    assert_eq!(*frustum.pose(), Pose::IDENTITY);
-    for segment in &segments {
-        let (allocations, counts) = clip(&frustum, segment, Accuracy::Fast);
-        assert_eq!((allocations, counts.integers), (0, 0), "{segment:?}");
+fn the_singular_samples_allocate_nothing() {
+    fn at<T: Real>(placement: &Placement) {
+        let (frustum, segments) = samples::<T>(placement);
+        assert_none(&plain(), &frustum, &segments);
+        assert_none(&exact(Accuracy::Fast), &frustum, &segments);
+        let mut tally = Tally::default();
+        for segment in &segments {
+            tally.add(&frustum, segment);
+            let (_, counts) = clip(&frustum, segment, Accuracy::Fast);
+            assert_eq!(counts.integers, 0, "{segment:?}");
+        }
+        assert_eq!(tally.with, 0, "{tally:?}");
+    }
+    for placement in [Placement::IDENTITY, Placement::rotated([1, 2, 2, 4])] {
+        at::<f64>(&placement);
+        at::<f32>(&placement);
+    }
+}
+
+/// Plain arithmetic needs no integers, whatever the input.
+#[test]
+fn no_plain_algorithm_allocates_in_any_family() {
+    fn block<T: Real>(family: Family, block: u64) {
+        let scene = family.scene(5, block);
+        let cases = block * BLOCK..(block + 1) * BLOCK;
+        let segments: Vec<_> = cases
+            .map(|index| family.segment::<T>(&scene, 5, index))
+            .collect();
+        assert_none(&plain(), scene.frustum(), &segments);
+    }
+    for &family in Family::ALL {
+        for number in 0..2 {
+            block::<f64>(family, number);
+            if family.has_f32() {
+                block::<f32>(family, number);
+            }
+        }
     }
 }
 

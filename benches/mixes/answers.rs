@@ -17,8 +17,30 @@ fn decided<T: Real>(clip: &SegmentClip<T>) -> (Class, [bool; 2], [FaceSet; 3]) {
     }
 }
 
+/// Parameters and points as bits, with what is known of them.
+fn bits<T: Real>(clip: &SegmentClip<T>) -> Option<[([u64; 4], bool); 2]> {
+    clip.part.map(|p| {
+        [p.entry, p.exit].map(|e| {
+            let [x, y, z] = e.point.to_f64().to_array();
+            ([e.t.to_f64(), x, y, z].map(f64::to_bits), e.inward)
+        })
+    })
+}
+
+/// All algorithms with exact decisions.
+pub(crate) fn exact<T: Real>(accuracy: Accuracy) -> [Box<dyn SegmentClipper<T>>; 6] {
+    [
+        Box::new(LiangBarsky::exact(LiangBarskyVariant::Textbook, accuracy)),
+        Box::new(LiangBarsky::exact(LiangBarskyVariant::Tuned, accuracy)),
+        Box::new(VwProjection::exact(accuracy)),
+        Box::new(CyrusBeck::exact(accuracy)),
+        Box::new(CohenSutherland::exact(accuracy)),
+        Box::new(SixPlanes::exact(accuracy)),
+    ]
+}
+
 /// All algorithms in plain arithmetic.
-fn plain<T: Real>() -> [Box<dyn SegmentClipper<T>>; 6] {
+pub(crate) fn plain<T: Real>() -> [Box<dyn SegmentClipper<T>>; 6] {
     [
         Box::new(LiangBarsky::plain(LiangBarskyVariant::Textbook)),
         Box::new(LiangBarsky::plain(LiangBarskyVariant::Tuned)),
@@ -45,14 +67,38 @@ pub(crate) fn wrong_answers<T: Real>(
     })
 }
 
+/// Asserts that all algorithms with exact decisions give the same bits, and that
+/// accuracies differ in points only.
+pub(crate) fn assert_exact_agree<T: Real>(frustum: &Frustum, segments: &[Segment<T>]) {
+    for accuracy in [Accuracy::Fast, Accuracy::Nearest, Accuracy::Inward] {
+        let clippers = exact::<T>(accuracy);
+        for s in segments {
+            let default = frustum.clip_segment(s).expect("finite");
+            let first = clippers[0].clip_segment(frustum, s).expect("finite");
+            assert_eq!(decided(&first), decided(&default), "{accuracy:?} on {s:?}");
+            if accuracy == Accuracy::Fast {
+                assert_eq!(bits(&first), bits(&default), "{s:?}");
+            }
+            for clipper in &clippers[1..] {
+                let found = clipper.clip_segment(frustum, s).expect("finite");
+                let name = clipper.name();
+                assert_eq!(decided(&found), decided(&first), "{name} on {s:?}");
+                assert_eq!(bits(&found), bits(&first), "{name} on {s:?}");
+            }
+        }
+    }
+}
+
 /// Asserts that all algorithms, plain, decide as the exact tier does, and that
-/// their points are within the tolerance; counts the classes.
+/// their points are within the tolerance, and that the exact tier agrees with
+/// itself; counts the classes.
 pub(crate) fn assert_answers_agree<T: Real>(
     frustum: &Frustum,
     segments: &[Segment<T>],
 ) -> [usize; 5] {
     let clippers = plain::<T>();
     let exact = VwProjection::exact(Accuracy::Nearest);
+    assert_exact_agree(frustum, segments);
     let mut classes = [0; 5];
     for s in segments {
         let expected = exact.clip_segment(frustum, s).expect("finite");

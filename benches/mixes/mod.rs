@@ -1,8 +1,10 @@
 //! The segments and frusta that are timed: realistic mixes, from fixed seeds.
 
-mod answers;
+pub(crate) mod answers;
+mod timed;
 
-pub(crate) use answers::{assert_answers_agree, wrong_answers};
+pub(crate) use answers::{assert_answers_agree, assert_exact_agree, wrong_answers};
+pub(crate) use timed::{call, form_cases, singular};
 
 use frusta::samples::{Placement, Random, Solid, singular_samples};
 use frusta::{Direction, EndRect, Frustum, Pose, Real, Rect, Segment, Shape, Vec3};
