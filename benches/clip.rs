@@ -1,15 +1,16 @@
 //! Every clipper on every mix: `cargo bench --bench clip`.
 //!
-//! For ratios that stand on a machine that others use, too, see `ratios`: here
-//! one clipper runs over the same segments again and again, and a good branch
-//! predictor learns much of them, which flatters branches.
+//! For ratios that stand on a machine that others use, too, see `ratios`: there
+//! the clippers take turns.
 //! Whatever is timed has had its answers compared: plain and exact, all forms, and
 //! on the 78 in the frame, where plain arithmetic makes no error.
 
 mod mixes;
 
 use criterion::measurement::WallTime;
-use criterion::{BenchmarkGroup, Criterion, Throughput, criterion_group, criterion_main};
+use criterion::{
+    BenchmarkGroup, Criterion, SamplingMode, Throughput, criterion_group, criterion_main,
+};
 use frusta::{
     Accuracy, CohenSutherland, CyrusBeck, Frustum, LiangBarsky, LiangBarskyVariant, Pose, Real,
     Segment, SegmentClipper, SixPlanes, VwProjection,
@@ -48,6 +49,7 @@ fn clippers<T: Real>(c: &mut Criterion, name: &str, f: &Frustum, s: &[Segment<T>
     use LiangBarskyVariant::{Textbook, Tuned};
     let group = &mut c.benchmark_group(name);
     group.throughput(Throughput::Elements(COUNT as u64));
+    group.sampling_mode(SamplingMode::Flat);
     bench(group, "plain", LiangBarsky::plain(Textbook), f, s);
     bench(group, "plain", LiangBarsky::plain(Tuned), f, s);
     bench(group, "plain", VwProjection::plain(), f, s);
@@ -75,6 +77,8 @@ fn forms(c: &mut Criterion) {
     for case in form_cases() {
         let name = format!("f64/{}/form/{}", case.form.name(), case.mix.name());
         let group = &mut c.benchmark_group(name);
+        group.throughput(Throughput::Elements(COUNT as u64));
+        group.sampling_mode(SamplingMode::Flat);
         for (tier, f) in [("own", &case.own), ("general", &case.general)] {
             bench(group, tier, VwProjection::plain(), f, &case.segments);
         }
@@ -100,6 +104,7 @@ fn clip(c: &mut Criterion) {
 /// Short, since there are many: raise with `--measurement-time`.
 fn config() -> Criterion {
     Criterion::default()
+        .without_plots()
         .sample_size(20)
         .warm_up_time(Duration::from_millis(200))
         .measurement_time(Duration::from_millis(600))

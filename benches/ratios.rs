@@ -3,8 +3,6 @@
 //! `cargo bench --bench ratios [-- ROUNDS]`. On a machine that others use, too,
 //! times drift within seconds; ratios drift less. So the clippers take turns,
 //! a ratio is taken within each round, and medians over the rounds are printed.
-//! Turns also keep branch predictors from learning the segments by heart, as
-//! they do if one clipper is timed over and over, which flatters branches.
 //! Answers are compared first.
 
 mod mixes;
@@ -13,7 +11,7 @@ use frusta::{
     Accuracy, CohenSutherland, CyrusBeck, Frustum, LiangBarsky, LiangBarskyVariant, Pose, Real,
     Segment, SegmentClipper, SixPlanes, VwProjection,
 };
-use mixes::{Form, Mix, assert_answers_agree, call, form_cases, frustum, poses};
+use mixes::{COUNT, Form, Mix, assert_answers_agree, call, form_cases, frustum, poses};
 use std::hint::black_box;
 use std::time::Instant;
 
@@ -118,7 +116,7 @@ fn singular(rounds: usize) {
         heading(&names);
         print!("{:32}", "");
         row(&take_turns(&passes, rounds));
-        print!("{:32}", "wrong of 4096");
+        print!("{:32}", format!("wrong of {COUNT}"));
         for (_, wrong) in case.wrong {
             print!(" {wrong:14}");
         }
@@ -146,7 +144,7 @@ fn forms(rounds: usize) {
 fn main() {
     // Cargo passes --bench, too.
     let rounds = std::env::args().skip(1).find_map(|arg| arg.parse().ok());
-    let rounds = rounds.unwrap_or(60_usize).max(1);
+    let rounds = rounds.unwrap_or(10_usize).max(1);
     println!("nanoseconds a segment; in brackets how many times as fast as textbook Liang-Barsky");
     for place in poses() {
         table::<f64>("f64", Form::Symmetric, place, rounds);

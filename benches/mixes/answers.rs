@@ -67,9 +67,25 @@ pub(crate) fn wrong_answers<T: Real>(
     })
 }
 
-/// Asserts that all algorithms with exact decisions give the same bits, and that
-/// accuracies differ in points only.
+/// Asserts that the exact clippers that are timed decide alike and, to the same
+/// accuracy, give the same bits; of the first segments, all exact clippers.
 pub(crate) fn assert_exact_agree<T: Real>(frustum: &Frustum, segments: &[Segment<T>]) {
+    let tuned = LiangBarsky::exact(LiangBarskyVariant::Tuned, Accuracy::Fast);
+    for s in segments {
+        let fast = frustum.clip_segment(s).expect("finite");
+        let other = tuned.clip_segment(frustum, s).expect("finite");
+        assert_eq!(decided(&other), decided(&fast), "{s:?}");
+        assert_eq!(bits(&other), bits(&fast), "{s:?}");
+        for accuracy in [Accuracy::Nearest, Accuracy::Inward] {
+            let other = frustum.clip_segment_with(s, accuracy).expect("finite");
+            assert_eq!(decided(&other), decided(&fast), "{accuracy:?} on {s:?}");
+        }
+    }
+    let first = &segments[..segments.len().min(1024)];
+    assert_all_exact_agree(frustum, first);
+}
+
+fn assert_all_exact_agree<T: Real>(frustum: &Frustum, segments: &[Segment<T>]) {
     for accuracy in [Accuracy::Fast, Accuracy::Nearest, Accuracy::Inward] {
         let clippers = exact::<T>(accuracy);
         for s in segments {

@@ -161,7 +161,8 @@ impl Default for Arithmetic {
     }
 }
 
-/// How often each stage of the exact predicates was needed.
+/// How often each stage of the exact predicates was needed. With `Inward` the
+/// later stages' numbers include the signs of candidates.
 ///
 /// Sums over segments add up: with `+`, `+=` and [`Iterator::sum`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -169,9 +170,11 @@ impl Default for Arithmetic {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(default))]
 pub struct StageCounts {
+    /// Segments on a grid so coarse that plain arithmetic makes no error; they
+    /// need no other stage, but perhaps to round their points.
+    pub lattice: u64,
     /// Segments of which the floating-point filter left at least one sign open,
-    /// whichever later stage settled it: mostly double-double. Of an `Inward`
-    /// point every candidate's signs count.
+    /// whichever later stage settled it: mostly double-double.
     pub filter_failures: u64,
     /// Signs taken from double-double values.
     pub double_doubles: u64,
@@ -183,6 +186,7 @@ pub struct StageCounts {
 
 impl AddAssign for StageCounts {
     fn add_assign(&mut self, other: Self) {
+        self.lattice += other.lattice;
         self.filter_failures += other.filter_failures;
         self.double_doubles += other.double_doubles;
         self.expansions += other.expansions;

@@ -184,11 +184,12 @@ impl Report<'_> {
         }
         if let Some(share) = self.filter_failure_share() {
             let row = format!(
-                "{:.4} % of the segments; later stages gave {} signs by double-double, {} by expansions, {} by integers",
+                "{:.4} % of the segments; later stages gave {} signs by double-double, {} by expansions, {} by integers; {} segments needed no filter, being on a coarse grid",
                 100.0 * share,
                 grouped(counts.stages.double_doubles),
                 grouped(counts.stages.expansions),
-                grouped(counts.stages.integers)
+                grouped(counts.stages.integers),
+                grouped(counts.stages.lattice)
             );
             rows.push(("filter failed", row));
         }

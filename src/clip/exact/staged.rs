@@ -72,6 +72,7 @@ impl<'a> Staged<'a> {
 
     /// Adds what this segment needed to a caller's counts.
     pub(crate) fn add_to(&self, counts: &mut StageCounts) {
+        counts.lattice += u64::from(self.lattice);
         counts.filter_failures += u64::from(self.failed);
         counts.double_doubles += self.counts.double_doubles;
         counts.expansions += self.counts.expansions;

@@ -70,6 +70,7 @@ fn clip_in<T: Real, L: Layout>(
         && accuracy == Accuracy::Fast
         && let Some(result) = lattice::clip(filter, segment, &p, &q)
     {
+        counts.lattice += 1;
         return Ok(result);
     }
     match triage(filter, &p, &q) {
