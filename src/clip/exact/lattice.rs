@@ -8,7 +8,7 @@
 //! the plain algorithm decides exactly, also what touches, at its own speed.
 //! Grid-aligned models against grid-aligned boxes are all of this kind.
 
-use super::pair;
+use super::pair::{self, Ends};
 use crate::clip::plain::outside;
 use crate::clip::{Class, SegmentClip};
 use crate::frustum::FaceSet;
@@ -40,11 +40,13 @@ pub(super) fn clip<T: Real>(
         return Some(outside());
     }
     let (mut enter, mut leave) = ([zero; 3], [zero; 3]);
+    let mut still = zero.simd_eq(zero);
     for i in 0..3 {
         let t = a[i] / (a[i] - b[i]);
         // Faces that are not crossed stand where they change nothing; so do
         // those with two equal values, whose t is no number.
         let level = a[i].simd_eq(b[i]);
+        still &= level;
         enter[i] = (a[i].simd_gt(zero) | level).bitselect(all(-1.0), t);
         leave[i] = (b[i].simd_gt(zero) | level).bitselect(all(2.0), t);
     }
@@ -84,7 +86,12 @@ pub(super) fn clip<T: Real>(
         coplanar,
         clipped,
     };
-    Some(finish(filter, segment, [p, q], &found))
+    // Equal values are those of equal points: they are exact.
+    Some(if still.all() {
+        point(segment, coplanar)
+    } else {
+        finish(filter, segment, [p, q], &found)
+    })
 }
 
 /// The faces whose lanes are set.
@@ -115,20 +122,20 @@ fn finish<T: Real>(
         coplanar,
         clipped,
     } = *found;
-    if segment.start == segment.end {
-        return point(segment, coplanar);
-    }
     let touch = at[0] == at[1];
     let both = faces[0].union(faces[1]);
     let faces = if touch { [both, both] } else { faces };
-    let class = if touch {
-        Class::Touch
-    } else if !coplanar.is_empty() {
-        Class::Boundary
-    } else if clipped[0] | clipped[1] {
-        Class::Cross
-    } else {
-        Class::Inside
+    // A table, not branches: here all classes are common.
+    let class = {
+        use Class::{Boundary, Cross, Inside, Touch};
+        let rows = [
+            [Inside, Cross],
+            [Boundary, Boundary],
+            [Touch, Touch],
+            [Touch, Touch],
+        ];
+        let row = usize::from(touch) << 1 | usize::from(!coplanar.is_empty());
+        rows[row][usize::from(clipped[0] | clipped[1])]
     };
     // The first face crossed at each end; any number where there is none.
     let number = |i: usize| (faces[i].bits().trailing_zeros() as usize).min(5);
@@ -136,13 +143,15 @@ fn finish<T: Real>(
     let [e, l] = crossed;
     let a = f64x2::new([p.of(e), p.of(l)]).abs();
     let b = f64x2::new([q.of(e), q.of(l)]).abs();
-    // At the segment's own ends there is nothing to construct.
+    // At the segment's own ends there is nothing to construct; a touch there is
+    // twice the same end.
     let at = f64x2::new(at);
-    let between = at.simd_gt(f64x2::splat(0.0)) & at.simd_lt(f64x2::splat(1.0));
-    let mut points = pair::construct(filter, &segment.to_f64(), crossed, [a, b], between);
-    if touch && !between.all() {
-        points = points.of_lane(usize::from(at.to_array()[0] == 1.0));
-    }
+    let end = at.simd_eq(f64x2::splat(1.0));
+    let ends = Ends {
+        crossing: at.simd_gt(f64x2::splat(0.0)) & !end,
+        end,
+    };
+    let points = pair::construct::<true>(filter, &segment.to_f64(), crossed, [a, b], &ends);
     let sets = [faces[0].union(coplanar), faces[1].union(coplanar)];
     pair::assemble(class, &points, clipped, sets, coplanar)
 }

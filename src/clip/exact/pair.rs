@@ -20,37 +20,33 @@ pub(super) struct Pair {
     pub(super) z: f64x2,
 }
 
-impl Pair {
-    /// One lane in both.
-    #[inline(always)]
-    pub(super) fn of_lane(&self, lane: usize) -> Self {
-        let both = |v: f64x2| f64x2::splat(v.to_array()[lane]);
-        Pair {
-            t: both(self.t),
-            x: both(self.x),
-            y: both(self.y),
-            z: both(self.z),
-        }
-    }
+/// What is at the two ends of the part, in lanes with all bits set or none.
+pub(super) struct Ends {
+    /// A crossing, not an end of the segment.
+    pub(super) crossing: f64x2,
+    /// Where it is not: the segment's end, not its start.
+    pub(super) end: f64x2,
 }
 
 /// Both ends, from the numbers of the faces crossed there and the magnitudes
-/// of their boundary values at start and end of the segment. `clipped` has all
-/// bits set in the lane of an end that is not the segment's own.
+/// of their boundary values at start and end of the segment. `TIES`: equal
+/// magnitudes are common.
 #[inline(always)]
-pub(super) fn construct(
+pub(super) fn construct<const TIES: bool>(
     filter: &Filter,
     segment: &Segment<f64>,
     faces: [usize; 2],
     [a, b]: [f64x2; 2],
-    clipped: f64x2,
+    ends: &Ends,
 ) -> Pair {
     let Segment { start, end } = *segment;
     let all = f64x2::splat;
     let mut from_end = b.simd_lt(a);
     let ties = a.simd_eq(b);
-    if ties.any() {
+    if TIES {
         from_end = ties.bitselect(lesser(segment), from_end);
+    } else if ties.any() {
+        from_end = ties.bitselect(cold_lesser(segment), from_end);
     }
     let tau = a.fast_min(b) / (a + b);
     let t = from_end.bitselect(all(1.0) - tau, tau);
@@ -58,7 +54,10 @@ pub(super) fn construct(
     // Adding zero: the sign of a zero must not depend on the order of the ends.
     let crossed =
         |p: f64, q: f64| from_end.bitselect(all(q), all(p)) + signed * all(q - p) + all(0.0);
-    let select = |v: f64x2, p: f64, q: f64| clipped.bitselect(v, f64x2::new([p, q]));
+    let select = |v: f64x2, p: f64, q: f64| {
+        let own = ends.end.bitselect(all(q), all(p));
+        ends.crossing.bitselect(v, own)
+    };
     let z = filter.precise.exact_depth(faces, crossed(start.z, end.z));
     Pair {
         t: select(t, 0.0, 1.0),
@@ -68,11 +67,18 @@ pub(super) fn construct(
     }
 }
 
-/// All bits set if the end is lexicographically smaller than the start.
-#[cold]
+/// All bits set if the end is lexicographically smaller than the start. No
+/// branches: where ties are common, they are not of one kind.
+#[inline(always)]
 fn lesser(segment: &Segment<f64>) -> f64x2 {
-    let end = segment.start.to_array() > segment.end.to_array();
-    f64x2::splat(f64::from_bits(if end { u64::MAX } else { 0 }))
+    let Segment { start: p, end: q } = segment;
+    let end = (p.x > q.x) | ((p.x == q.x) & ((p.y > q.y) | ((p.y == q.y) & (p.z > q.z))));
+    f64x2::splat(f64::from_bits(u64::from(end).wrapping_neg()))
+}
+
+#[cold]
+fn cold_lesser(segment: &Segment<f64>) -> f64x2 {
+    lesser(segment)
 }
 
 /// A mask as flags.
@@ -135,5 +141,22 @@ pub(super) fn inside<T: Real>(segment: &Segment<T>) -> SegmentClip<T> {
             exit: end(T::ONE, segment.end),
             coplanar: FaceSet::EMPTY,
         }),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The same order as the one of arrays, which `points` goes by.
+    #[test]
+    fn the_lesser_end_is_the_lexicographically_smaller() {
+        let point = |i: i32| Vec3::from([i % 3, i / 3 % 3, i / 9].map(f64::from));
+        for (i, j) in (0..27).flat_map(|i| (0..27).map(move |j| (i, j))) {
+            let segment = Segment::new(point(i), point(j));
+            let end = segment.start.to_array() > segment.end.to_array();
+            let expected = if end { 0b11 } else { 0 };
+            assert_eq!(lesser(&segment).to_bitmask(), expected, "{segment:?}");
+        }
     }
 }

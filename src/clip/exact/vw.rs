@@ -24,8 +24,9 @@
 //! t by u / 2 at most.
 
 use super::decide::{At, Decision};
+use super::pair::{self, Ends};
 use super::staged::Staged;
-use super::{lattice, pair, points};
+use super::{lattice, points};
 use crate::clip::plain::outside;
 use crate::clip::predicates::{Predicates, Role, Span};
 use crate::clip::{Accuracy, Class, SegmentClip, StageCounts};
@@ -272,7 +273,11 @@ fn fast<T: Real>(filter: &Filter, wide: &Segment<f64>, crossing: &Crossing) -> S
     let Crossing { faces, clipped } = *crossing;
     let a = filter.precise.magnitudes(faces, wide.start);
     let b = filter.precise.magnitudes(faces, wide.end);
-    let points = pair::construct(filter, wide, faces, [a, b], clipped);
+    let ends = Ends {
+        crossing: clipped,
+        end: f64x2::new([0.0, f64::from_bits(u64::MAX)]),
+    };
+    let points = pair::construct::<false>(filter, wide, faces, [a, b], &ends);
     let clipped = pair::flags(clipped);
     let set = |i: usize| FaceSet::from_bits(u8::from(clipped[i]) << faces[i]);
     pair::assemble(
