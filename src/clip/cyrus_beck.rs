@@ -65,15 +65,6 @@ impl<T: Real> SegmentClipper<T> for CyrusBeck {
     }
 
     #[inline]
-    fn clip_segment(
-        &self,
-        frustum: &Frustum,
-        segment: &Segment<T>,
-    ) -> Result<SegmentClip<T>, NonFinite> {
-        self.clip_segment_counted(frustum, segment, &mut StageCounts::default())
-    }
-
-    #[inline]
     fn clip_segment_counted(
         &self,
         frustum: &Frustum,

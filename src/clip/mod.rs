@@ -52,11 +52,14 @@ pub trait SegmentClipper<T: Real> {
     ///
     /// # Errors
     /// A coordinate of the segment is infinite or NaN.
+    #[inline]
     fn clip_segment(
         &self,
         frustum: &Frustum,
         segment: &Segment<T>,
-    ) -> Result<SegmentClip<T>, NonFinite>;
+    ) -> Result<SegmentClip<T>, NonFinite> {
+        self.clip_segment_counted(frustum, segment, &mut StageCounts::default())
+    }
 
     /// As [`SegmentClipper::clip_segment`], and adds to `counts` which stages of
     /// the exact predicates were needed. An algorithm that has no such stages,
@@ -69,10 +72,7 @@ pub trait SegmentClipper<T: Real> {
         frustum: &Frustum,
         segment: &Segment<T>,
         counts: &mut StageCounts,
-    ) -> Result<SegmentClip<T>, NonFinite> {
-        let _ = counts;
-        self.clip_segment(frustum, segment)
-    }
+    ) -> Result<SegmentClip<T>, NonFinite>;
 }
 
 impl Frustum {

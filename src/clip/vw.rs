@@ -74,15 +74,6 @@ impl<T: Real> SegmentClipper<T> for VwProjection {
     }
 
     #[inline]
-    fn clip_segment(
-        &self,
-        frustum: &Frustum,
-        segment: &Segment<T>,
-    ) -> Result<SegmentClip<T>, NonFinite> {
-        self.clip_segment_counted(frustum, segment, &mut StageCounts::default())
-    }
-
-    #[inline]
     fn clip_segment_counted(
         &self,
         frustum: &Frustum,

@@ -5,7 +5,7 @@
 //! correctly rounded too, which is more than was promised.
 
 use super::{Oracle, OracleEnd, round_nearest};
-use crate::clip::{Accuracy, Part, PartEnd, SegmentClip, SegmentClipper};
+use crate::clip::{Accuracy, Part, PartEnd, SegmentClip, SegmentClipper, StageCounts};
 use crate::frustum::{Face, FaceSet, Frustum};
 use crate::math::{NonFinite, Real, Segment, Vec3};
 
@@ -21,10 +21,11 @@ impl<T: Real> SegmentClipper<T> for OracleClipper {
         "oracle"
     }
 
-    fn clip_segment(
+    fn clip_segment_counted(
         &self,
         frustum: &Frustum,
         segment: &Segment<T>,
+        _: &mut StageCounts,
     ) -> Result<SegmentClip<T>, NonFinite> {
         Oracle::new(frustum).answer(segment, self.accuracy)
     }

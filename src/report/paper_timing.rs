@@ -182,7 +182,7 @@ fn median(mut values: Vec<f64>) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::clip::VwProjection;
+    use crate::clip::{StageCounts, VwProjection};
     use crate::math::NonFinite;
     use crate::report::Tier;
     use std::cell::Cell;
@@ -207,10 +207,11 @@ mod tests {
             "unsteady"
         }
 
-        fn clip_segment(
+        fn clip_segment_counted(
             &self,
             frustum: &Frustum,
             segment: &Segment<f64>,
+            _: &mut StageCounts,
         ) -> Result<SegmentClip<f64>, NonFinite> {
             self.0.set(self.0.get() + 1);
             if self.0.get().is_multiple_of(1000) {
