@@ -131,12 +131,11 @@ impl InFrame for Plain {
 }
 
 /// The faces with two zero values.
-#[cold]
 #[inline(never)]
 fn both_zero<T: Real>([a, b]: &[[T; 6]; 2]) -> FaceSet {
-    let zero = T::ZERO;
-    let on = |face: &Face| a[*face as usize] == zero && b[*face as usize] == zero;
-    Face::ALL.into_iter().filter(on).collect()
+    // No branches: which of them cannot be predicted.
+    let on = |i: usize| (a[i] == T::ZERO) & (b[i] == T::ZERO);
+    FaceSet::from_bits((0..6).fold(0, |bits, i| bits | u8::from(on(i)) << i))
 }
 
 /// For six values at each end: clips where they change sign.
