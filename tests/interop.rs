@@ -290,7 +290,7 @@ mod serde {
         let counts: StageCounts = serde_json::from_str(r#"{"filter_failures":3}"#).unwrap();
         assert_eq!(
             serde_json::to_string(&counts).unwrap(),
-            r#"{"filter_failures":3,"double_doubles":0,"expansions":0,"integers":0}"#
+            r#"{"lattice":0,"filter_failures":3,"double_doubles":0,"expansions":0,"integers":0}"#
         );
     }
 
