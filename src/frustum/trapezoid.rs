@@ -170,7 +170,7 @@ impl Trapezoid {
     /// that of a side may come out on either side of it.
     #[must_use]
     pub fn clip_segment(&self, p: [f64; 2], q: [f64; 2]) -> Option<Interval> {
-        let (trapezoid, p, q) = self.in_range(p, q)?;
+        let (trapezoid, [p, q]) = self.in_range(p, q)?;
         let (at_p, at_q) = (trapezoid.values(p), trapezoid.values(q));
         let (mut start, mut end) = (0.0_f64, 1.0_f64);
         for (f, g) in at_p.into_iter().zip(at_q) {
@@ -218,11 +218,7 @@ impl Trapezoid {
 
     /// Trapezoid and points, scaled by powers of two where products could leave
     /// the range of doubles; `None` if a number is infinite or NaN.
-    #[allow(
-        clippy::type_complexity,
-        reason = "a named type for one private return value would say less"
-    )]
-    fn in_range(&self, p: [f64; 2], q: [f64; 2]) -> Option<(Self, [f64; 2], [f64; 2])> {
+    fn in_range(&self, p: [f64; 2], q: [f64; 2]) -> Option<(Self, [[f64; 2]; 2])> {
         let near = self.near();
         let (across, slope) = match *self {
             Self::Finite { far, .. } => ([far.low, far.high], 0.0),
@@ -236,7 +232,7 @@ impl Trapezoid {
         let x = largest(&[p[0], q[0], near.low, near.high, across[0], across[1]]);
         let z = largest(&[p[1], q[1], near.z, far_z]);
         if [x, z].iter().all(|m| (1e-70..1e70).contains(m)) && slope < 1e70 {
-            return Some((*self, p, q));
+            return Some((*self, [p, q]));
         }
         if !(x.is_finite() && z.is_finite() && slope.is_finite()) {
             return None;
@@ -244,7 +240,7 @@ impl Trapezoid {
         let z_shift = -exponent(z);
         let x_shift = -exponent(x).max(exponent(slope) + exponent(z));
         let point = |[x, z]: [f64; 2]| [libm::ldexp(x, x_shift), libm::ldexp(z, z_shift)];
-        Some((self.shifted(x_shift, z_shift), point(p), point(q)))
+        Some((self.shifted(x_shift, z_shift), [point(p), point(q)]))
     }
 
     fn shifted(&self, x_shift: i32, z_shift: i32) -> Self {

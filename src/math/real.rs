@@ -97,11 +97,6 @@ macro_rules! real {
                 f64::from(self)
             }
             #[inline(always)]
-            #[allow(
-                clippy::cast_possible_truncation,
-                clippy::unnecessary_cast,
-                reason = "the rounding conversion is the point"
-            )]
             fn from_f64(value: f64) -> Self {
                 value as $t
             }
