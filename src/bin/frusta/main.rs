@@ -7,6 +7,7 @@ mod frustum_file;
 mod input;
 mod number;
 mod output;
+mod picture;
 mod pipeline;
 mod report;
 mod stats;
