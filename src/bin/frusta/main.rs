@@ -14,6 +14,7 @@ mod stats;
 mod terminal;
 mod verify;
 mod view;
+mod whole_file;
 
 use clap::{Parser, Subcommand};
 use std::process::ExitCode;

@@ -4,14 +4,13 @@
 //! the chunks together in order ([`Writer::accept`]).
 
 mod csv;
-mod file;
 mod obj;
 mod svg;
 mod thin;
 
 use crate::failure::Failure;
 use crate::number::Scalar;
-use file::WholeFile;
+use crate::whole_file::WholeFile;
 use frusta::{Frustum, SegmentClip};
 use std::path::Path;
 
