@@ -10,6 +10,8 @@ mod output;
 mod picture;
 mod pipeline;
 mod report;
+mod samples;
+mod shell;
 mod stats;
 mod terminal;
 mod verify;
@@ -31,7 +33,10 @@ struct Cli {
 enum Command {
     Clip(Box<clip::ClipArgs>),
     Report(report::ReportArgs),
+    Samples(samples::SamplesArgs),
     Verify(verify::VerifyArgs),
+    Completions(shell::CompletionsArgs),
+    Man(shell::ManArgs),
 }
 
 /// Part of every help text.
@@ -44,7 +49,7 @@ Exit codes:
 /// The exit code of a failure; `clap` uses the same for wrong usage.
 const FAILED: u8 = 2;
 
-/// The exit code of `report` and `verify` if an exact answer is wrong.
+/// The exit code of `report`, `verify` and `samples show` if an exact answer is wrong.
 const WRONG: u8 = 1;
 
 /// How many threads there are to use.
@@ -56,7 +61,10 @@ fn main() -> ExitCode {
     let result = match Cli::parse().command {
         Command::Clip(args) => clip::run(&args).map(|()| ExitCode::SUCCESS),
         Command::Report(args) => report::run(&args),
+        Command::Samples(args) => samples::run(&args),
         Command::Verify(args) => verify::run(&args),
+        Command::Completions(args) => shell::completions(&args).map(|()| ExitCode::SUCCESS),
+        Command::Man(args) => shell::man(&args).map(|()| ExitCode::SUCCESS),
     };
     match result {
         Ok(code) => code,

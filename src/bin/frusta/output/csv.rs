@@ -5,13 +5,13 @@ use frusta::{Part, SegmentClip};
 use std::io::Write;
 
 /// The columns.
-pub(super) const HEADER: &str = "index,class,t0,t1,x0,y0,z0,x1,y1,z1,enter,leave,coplanar\n";
+pub(crate) const HEADER: &str = "index,class,t0,t1,x0,y0,z0,x1,y1,z1,enter,leave,coplanar\n";
 
 /// Appends the rows of the segments from number `first` on.
 ///
 /// Numbers are the shortest decimals that read back to the same bits; a segment
 /// that is outside has nothing after its class.
-pub(super) fn format<T: Scalar>(first: u64, clips: &[SegmentClip<T>], out: &mut Vec<u8>) {
+pub(crate) fn format<T: Scalar>(first: u64, clips: &[SegmentClip<T>], out: &mut Vec<u8>) {
     for (index, clip) in (first..).zip(clips) {
         // Writing into memory cannot fail.
         let _ = write!(out, "{index},{}", clip.class.name());

@@ -3,7 +3,7 @@
 //! Workers format their chunk of results ([`Format::format`]), the writer puts
 //! the chunks together in order ([`Writer::accept`]).
 
-mod csv;
+pub(crate) mod csv;
 mod obj;
 mod svg;
 mod thin;

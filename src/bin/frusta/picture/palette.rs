@@ -31,6 +31,8 @@ pub(crate) struct Palette {
     pub(crate) classes: [&'static str; 5],
     /// Where a segment was cut.
     pub(crate) cut: &'static str,
+    /// Under what a picture is about, as a highlighter does it.
+    pub(crate) highlight: &'static str,
 }
 
 const LIGHT: Palette = Palette {
@@ -40,6 +42,7 @@ const LIGHT: Palette = Palette {
     faint: "#b9b6ad",
     classes: ["#9a978f", "#b0578d", "#00805d", "#0072b2", "#d55e00"],
     cut: "#8c2d04",
+    highlight: "#ffd84a",
 };
 
 const DARK: Palette = Palette {
@@ -49,6 +52,7 @@ const DARK: Palette = Palette {
     faint: "#4d525c",
     classes: ["#767b86", "#e29cc5", "#2fc29a", "#56b4e9", "#f0a13a"],
     cut: "#ffe08a",
+    highlight: "#8f6f00",
 };
 
 impl Theme {

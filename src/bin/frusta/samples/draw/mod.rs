@@ -1,0 +1,22 @@
+//! Pictures of samples.
+//!
+//! ```text
+//! canvas     strokes, shapes and text as SVG
+//! camera     from the solid's frame to the picture
+//! spatial    the frustum from outside
+//! planar     a trapezoid, TV or TW
+//! strand     the segment, in three pieces, in either picture
+//! page       one sample, large
+//! sheet      all samples, small
+//! ```
+
+mod camera;
+mod canvas;
+mod page;
+mod planar;
+mod sheet;
+mod spatial;
+mod strand;
+
+pub(super) use page::page;
+pub(super) use sheet::sheet;

@@ -1,0 +1,135 @@
+//! The frustum from outside: hidden edges dashed, one feature highlighted, and
+//! a segment.
+
+use super::camera::Camera;
+use super::canvas::{Canvas, Pen, Place};
+use super::strand::{self, Sizes};
+use crate::samples::case::Case;
+use frusta::samples::{Feature, FeatureKind, Solid};
+use frusta::{FaceSet, Vec3};
+
+/// How far open ends are drawn, as a multiple of the rest.
+const OPEN: f64 = 1.22;
+
+/// The solid and the sample's segment, as the camera sees them.
+pub(super) fn draw(canvas: &mut Canvas, camera: &Camera, solid: &Solid, case: &Case, sizes: Sizes) {
+    let seen = seen(camera, solid);
+    shade(canvas, camera, solid, seen);
+    highlight(canvas, camera, solid, case.sample.feature, sizes);
+    let edges = solid.features().into_iter();
+    for edge in edges.filter(|f| f.kind() == FeatureKind::Edge) {
+        draw_edge(canvas, camera, solid, edge, seen, sizes);
+    }
+    let (p, q) = (case.segment.start, case.segment.end);
+    if let Some(shown) = camera.before_eye(p, q) {
+        let place = |t: f64| camera.place(p + (q - p) * t);
+        strand::draw(canvas, &case.expected, shown, sizes, place);
+    }
+}
+
+/// The corners of a feature: one, two, or four going round.
+pub(super) fn corners(solid: &Solid, feature: Feature) -> Vec<Vec3<f64>> {
+    let grid = feature.grid();
+    if feature.is_apex() {
+        return vec![solid.at(grid)];
+    }
+    let free: Vec<usize> = (0..3).filter(|&k| grid[k] == 0.5).collect();
+    const AROUND: [[f64; 2]; 4] = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
+    let count = [1, 2, 4][free.len().min(2)];
+    let corner = |around: &[f64; 2]| {
+        let mut at = grid;
+        for (&k, &value) in free.iter().zip(around) {
+            at[k] = value;
+        }
+        solid.at(at)
+    };
+    AROUND[..count].iter().map(corner).collect()
+}
+
+/// All corners of the solid, those of an open end where the drawing stops.
+pub(super) fn all_corners(solid: &Solid) -> Vec<Vec3<f64>> {
+    let end = if solid.is_infinite() { OPEN } else { 1.0 };
+    let mut all = Vec::new();
+    for w in [0.0, end] {
+        for [u, v] in [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]] {
+            all.push(solid.at([u, v, w]));
+        }
+    }
+    all
+}
+
+fn faces(solid: &Solid) -> impl Iterator<Item = Feature> {
+    let features = solid.features().into_iter();
+    features.filter(|f| f.kind() == FeatureKind::Face)
+}
+
+/// The faces whose outer side the camera sees.
+fn seen(camera: &Camera, solid: &Solid) -> FaceSet {
+    let inside = solid.at([0.5, 0.5, 0.5]);
+    let outer = |&face: &Feature| {
+        let p = corners(solid, face);
+        // Of the diagonals, since a side of a pyramid's face has no length.
+        let normal = (p[2] - p[0]).cross(p[3] - p[1]);
+        let outwards = normal.dot(p[0] - inside).signum();
+        camera.sees(p[0], normal * outwards)
+    };
+    let seen = faces(solid).filter(outer);
+    seen.flat_map(|face| face.faces().iter()).collect()
+}
+
+/// A little colour on what is seen, each face its own shade.
+fn shade(canvas: &mut Canvas, camera: &Camera, solid: &Solid, seen: FaceSet) {
+    for face in faces(solid) {
+        let visible = face.faces().first().filter(|&f| seen.contains(f));
+        if let Some(name) = visible {
+            let opacity = 0.05 + 0.02 * f64::from(name as u8);
+            let area = places(camera, &corners(solid, face));
+            canvas.polygon(&area, canvas.palette.ink, opacity, 0.0);
+        }
+    }
+}
+
+fn places(camera: &Camera, points: &[Vec3<f64>]) -> Vec<Place> {
+    points.iter().map(|&p| camera.place(p)).collect()
+}
+
+fn highlight(canvas: &mut Canvas, camera: &Camera, solid: &Solid, feature: Feature, sizes: Sizes) {
+    let at = places(camera, &corners(solid, feature));
+    let colour = canvas.palette.highlight;
+    match at[..] {
+        [point] => canvas.disc(point, 2.4 * sizes.mark, colour),
+        [a, b] => canvas.line(a, b, Pen::new(colour, 2.8 * sizes.mark)),
+        _ => canvas.polygon(&at, colour, 0.8, 0.0),
+    }
+}
+
+/// Full if one of its faces is seen; where there is no end, dots go on.
+fn draw_edge(
+    canvas: &mut Canvas,
+    camera: &Camera,
+    solid: &Solid,
+    edge: Feature,
+    seen: FaceSet,
+    sizes: Sizes,
+) {
+    let ends = places(camera, &corners(solid, edge));
+    let [a, b] = ends[..] else {
+        return;
+    };
+    let hidden = edge.faces().intersection(seen).is_empty();
+    let pen = if hidden {
+        Pen::new(canvas.palette.classes[0], 0.8 * sizes.thin).dashed()
+    } else {
+        Pen::new(canvas.palette.ink, sizes.thin)
+    };
+    canvas.line(a, b, pen);
+    let [u, v, w] = edge.grid();
+    if solid.is_infinite() && w == 0.5 {
+        let on = camera.place(solid.at([u, v, OPEN]));
+        canvas.line(
+            b,
+            on,
+            Pen::new(canvas.palette.classes[0], sizes.thin).dashed(),
+        );
+    }
+}
