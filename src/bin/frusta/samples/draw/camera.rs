@@ -21,7 +21,7 @@ impl Camera {
     /// margin.
     pub(super) fn new(solid: &Solid, fit: &[Vec3<f64>], size: Place, margin: f64) -> Self {
         let along = solid.shape.direction().sign();
-        let towards = unit(Vec3::new(-0.62 * along, 0.5, -0.6 * along));
+        let towards = unit(Vec3::new(-0.78 * along, 0.5, -0.42 * along));
         let centre =
             (fit.iter().fold(Vec3::default(), |sum, &p| sum + p)) * (1.0 / fit.len() as f64);
         let reach = fit.iter().map(|&p| length(p - centre)).fold(1e-9, f64::max);

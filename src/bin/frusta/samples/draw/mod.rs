@@ -5,6 +5,7 @@
 //! camera     from the solid's frame to the picture
 //! spatial    the frustum from outside
 //! planar     a trapezoid, TV or TW
+//! legend     what the strokes and marks mean
 //! strand     the segment, in three pieces, in either picture
 //! page       one sample, large
 //! sheet      all samples, small
@@ -12,6 +13,7 @@
 
 mod camera;
 mod canvas;
+mod legend;
 mod page;
 mod planar;
 mod sheet;

@@ -2,6 +2,7 @@
 
 use super::camera::Camera;
 use super::canvas::{Canvas, Pen, Place, Type, wrap};
+use super::legend;
 use super::planar::{self, Frame, Plane};
 use super::spatial;
 use super::strand::Sizes;
@@ -14,12 +15,14 @@ use frusta::samples::Solid;
 use frusta::{Class, Frustum, Interval};
 
 const WIDTH: f64 = 1180.0;
-const HEIGHT: f64 = 820.0;
+const HEIGHT: f64 = 850.0;
 const MARGIN: f64 = 24.0;
 /// The frustum's picture.
-const LARGE: Place = [660.0, 520.0];
+const LARGE: Place = [640.0, 520.0];
 /// A trapezoid's picture.
-const SMALL: Place = [WIDTH - 3.0 * MARGIN - LARGE[0], 252.0];
+const SMALL: Place = [(WIDTH - 3.0 * MARGIN - LARGE[0] - GAP) / 2.0, LARGE[1]];
+/// Between the trapezoids.
+const GAP: f64 = 12.0;
 const TOP: f64 = 92.0;
 
 /// The picture of a sample.
@@ -41,7 +44,7 @@ pub(in crate::samples) fn page(
     let left = 2.0 * MARGIN + LARGE[0];
     let frames = Frame::both(solid, &fit, SMALL, 30.0);
     for (i, plane) in [Plane::V, Plane::W].into_iter().enumerate() {
-        let corner = [left, TOP + i as f64 * (SMALL[1] + 16.0)];
+        let corner = [left + i as f64 * (SMALL[0] + GAP), TOP];
         canvas.paper(corner, SMALL);
         canvas.inside(corner, SMALL, |canvas| {
             planar::draw(canvas, frames[i], solid, case, Sizes::LARGE);
@@ -51,6 +54,7 @@ pub(in crate::samples) fn page(
     let below = TOP + LARGE[1] + 34.0;
     parameters(&mut canvas, frustum, case, below);
     words(&mut canvas, case, below + 96.0);
+    legend::draw(&mut canvas, [MARGIN, HEIGHT - 24.0], 13.0, false);
     canvas.finish()
 }
 
@@ -89,13 +93,13 @@ fn name_axes(canvas: &mut Canvas, plane: Plane, solid: &Solid) {
     let name = font(canvas, 15.0, true);
     canvas.text([12.0, 24.0], plane.name(), name);
     let axis = font(canvas, 13.0, false);
-    canvas.text([40.0, 24.0], &format!("{} upwards", plane.across()), axis);
+    canvas.text([46.0, 24.0], &format!("{} upwards", plane.across()), axis);
     let depth = if solid.shape.direction().sign() > 0.0 {
         "z to the right"
     } else {
         "-z to the right"
     };
-    canvas.text_before([SMALL[0] - 12.0, 24.0], depth, axis);
+    canvas.text_before([SMALL[0] - 12.0, SMALL[1] - 14.0], depth, axis);
 }
 
 /// Three bars from 0 to 1: what is in TV, in TW, in both.
@@ -124,7 +128,12 @@ fn parameters(canvas: &mut Canvas, frustum: &Frustum, case: &Case, top: f64) {
             Some(interval) => {
                 let [a, b] = [interval.start(), interval.end()];
                 canvas.line([x(a), y], [x(b), y], Pen::new(colour, 7.0));
-                format!("{} to {}", rounded(a), rounded(b))
+                canvas.disc([x(a), y], 5.0, colour);
+                canvas.disc([x(b), y], 5.0, colour);
+                match [rounded(a), rounded(b)] {
+                    [a, b] if a == b => a,
+                    [a, b] => format!("{a} to {b}"),
+                }
             }
             None => "none".to_owned(),
         };

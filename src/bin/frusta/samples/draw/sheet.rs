@@ -1,7 +1,8 @@
 //! All samples, small: two features a row, each with its relations.
 
 use super::camera::Camera;
-use super::canvas::{Canvas, Pen, Place, Type};
+use super::canvas::{Canvas, Place, Type};
+use super::legend;
 use super::page::class_colour;
 use super::planar::{self, Frame, Plane};
 use super::spatial;
@@ -9,8 +10,8 @@ use super::strand::Sizes;
 use crate::number::short;
 use crate::picture::Palette;
 use crate::samples::case::Case;
-use frusta::samples::{FeatureKind, Solid};
-use frusta::{Class, Vec3};
+use frusta::Vec3;
+use frusta::samples::{FeatureKind, Relation, Solid};
 
 const MARGIN: f64 = 24.0;
 const CELL: Place = [416.0, 246.0];
@@ -22,11 +23,8 @@ const HEADER: f64 = 118.0;
 const TITLE: f64 = 48.0;
 /// A line of text above a cell's pictures, and one below.
 const TEXT: f64 = 27.0;
-const SPATIAL: Place = [268.0, CELL[1] - 2.0 * TEXT];
-const PLANAR: Place = [CELL[0] - SPATIAL[0], SPATIAL[1] / 2.0];
-
-/// How much is to be seen around the solid, as a multiple of its size.
-const AROUND: f64 = 1.35;
+const SPATIAL: Place = [242.0, CELL[1] - 2.0 * TEXT];
+const PLANAR: Place = [(CELL[0] - SPATIAL[0]) / 2.0, SPATIAL[1]];
 
 /// The sheet of a solid's samples.
 pub(in crate::samples) fn sheet(
@@ -54,7 +52,8 @@ pub(in crate::samples) fn sheet(
     let width = 2.0 * (MARGIN + step - GAP) + APART;
     let mut canvas = Canvas::new([width, height], palette);
     header(&mut canvas, solid, cases.len());
-    let views = Views::new(solid);
+    let corners = spatial::all_corners(solid);
+    let common = Views::new(solid, &corners);
     let mut top = HEADER;
     for (name, features) in groups {
         let title = format!("{} {name}", features.len());
@@ -64,7 +63,13 @@ pub(in crate::samples) fn sheet(
             for (left, feature) in [MARGIN, MARGIN + step - GAP + APART].into_iter().zip(pair) {
                 for (j, case) in feature.iter().enumerate() {
                     let x = left + j as f64 * (CELL[0] + GAP);
-                    cell(&mut canvas, &views, solid, case, [x, top]);
+                    // Of a near miss only the whole shows that it misses.
+                    let whole = (case.sample.relation == Relation::Apart).then(|| {
+                        let ends = [case.segment.start, case.segment.end];
+                        Views::new(solid, &[&corners[..], &ends].concat())
+                    });
+                    let views = whole.as_ref().unwrap_or(&common);
+                    cell(&mut canvas, views, solid, case, [x, top]);
                 }
             }
             top += CELL[1] + GAP;
@@ -88,15 +93,11 @@ struct Views {
 }
 
 impl Views {
-    fn new(solid: &Solid) -> Self {
-        let corners = spatial::all_corners(solid);
-        let mean = |sum: Vec3<f64>| sum * (1.0 / corners.len() as f64);
-        let centre = mean(corners.iter().fold(Vec3::default(), |sum, &p| sum + p));
-        let around = corners.iter().map(|&p| centre + (p - centre) * AROUND);
-        let fit: Vec<_> = around.collect();
+    /// So that these points are seen, with some room around them.
+    fn new(solid: &Solid, fit: &[Vec3<f64>]) -> Self {
         Self {
-            camera: Camera::new(solid, &fit, SPATIAL, 2.0),
-            frames: Frame::both(solid, &fit, PLANAR, 2.0),
+            camera: Camera::new(solid, fit, SPATIAL, 30.0),
+            frames: Frame::both(solid, fit, PLANAR, 14.0),
         }
     }
 }
@@ -111,7 +112,7 @@ fn cell(canvas: &mut Canvas, views: &Views, solid: &Solid, case: &Case, [left, t
         spatial::draw(canvas, &views.camera, solid, case, Sizes::SMALL);
     });
     for (i, plane) in [Plane::V, Plane::W].into_iter().enumerate() {
-        let corner = [left + SPATIAL[0], top + TEXT + i as f64 * PLANAR[1]];
+        let corner = [left + SPATIAL[0] + i as f64 * PLANAR[0], top + TEXT];
         canvas.inside(corner, PLANAR, |canvas| {
             planar::draw(canvas, views.frames[i], solid, case, Sizes::SMALL);
             canvas.text([4.0, 14.0], plane.name(), font(palette, 11.0, false));
@@ -139,46 +140,5 @@ fn header(canvas: &mut Canvas, solid: &Solid, count: usize) {
     let palette = canvas.palette;
     let title = format!("The {count} samples of the solid {}", solid.name);
     canvas.text([MARGIN, 46.0], &title, font(palette, 28.0, true));
-    let y = 88.0;
-    let small = font(palette, 16.0, false);
-    let mut x = MARGIN;
-    let mut entry = |canvas: &mut Canvas, text: &str, draw: &dyn Fn(&mut Canvas, f64)| {
-        draw(canvas, x);
-        canvas.text([x + 44.0, y + 5.0], text, small);
-        // The width of a letter, a little more than usual.
-        x += 44.0 + 9.6 * text.chars().count() as f64 + 26.0;
-    };
-    let sizes = Sizes::LARGE;
-    let across = |x: f64| ([x, y], [x + 34.0, y]);
-    entry(canvas, "the feature", &|canvas, x| {
-        let (a, b) = across(x);
-        canvas.line(a, b, Pen::new(palette.highlight, 13.0));
-        canvas.line(a, b, Pen::new(palette.ink, sizes.thin));
-    });
-    for class in [Class::Boundary, Class::Inside, Class::Cross] {
-        entry(canvas, &format!("part inside: {class}"), &|canvas, x| {
-            let (a, b) = across(x);
-            let colour = palette.classes[class as usize];
-            canvas.line(a, b, Pen::new(colour, sizes.thick));
-        });
-    }
-    entry(canvas, "touch", &|canvas, x| {
-        let colour = palette.classes[Class::Touch as usize];
-        canvas.disc([x + 17.0, y], 6.5, colour);
-    });
-    entry(canvas, "cut where it enters", &|canvas, x| {
-        canvas.ring([x + 17.0, y], 5.5, Pen::new(palette.cut, 2.2));
-    });
-    entry(canvas, "cut where it leaves", &|canvas, x| {
-        canvas.disc([x + 17.0, y], 6.5, palette.cut);
-    });
-    entry(canvas, "outside", &|canvas, x| {
-        let (a, b) = across(x);
-        canvas.line(a, b, Pen::new(palette.ink, sizes.thin).dashed());
-    });
-    entry(canvas, "hidden edge, or the open end", &|canvas, x| {
-        let (a, b) = across(x);
-        let pen = Pen::new(palette.classes[0], 0.8 * sizes.thin);
-        canvas.line(a, b, pen.dashed());
-    });
+    legend::draw(canvas, [MARGIN, 84.0], 16.0, true);
 }

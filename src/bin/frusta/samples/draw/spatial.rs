@@ -14,11 +14,17 @@ const OPEN: f64 = 1.22;
 /// The solid and the sample's segment, as the camera sees them.
 pub(super) fn draw(canvas: &mut Canvas, camera: &Camera, solid: &Solid, case: &Case, sizes: Sizes) {
     let seen = seen(camera, solid);
-    shade(canvas, camera, solid, seen);
-    highlight(canvas, camera, solid, case.sample.feature, sizes);
+    let view = View {
+        camera,
+        solid,
+        seen,
+        sizes,
+    };
+    view.shade(canvas);
+    view.highlight(canvas, case.sample.feature);
     let edges = solid.features().into_iter();
     for edge in edges.filter(|f| f.kind() == FeatureKind::Edge) {
-        draw_edge(canvas, camera, solid, edge, seen, sizes);
+        view.edge(canvas, edge);
     }
     let (p, q) = (case.segment.start, case.segment.end);
     if let Some(shown) = camera.before_eye(p, q) {
@@ -77,59 +83,63 @@ fn seen(camera: &Camera, solid: &Solid) -> FaceSet {
     seen.flat_map(|face| face.faces().iter()).collect()
 }
 
-/// A little colour on what is seen, each face its own shade.
-fn shade(canvas: &mut Canvas, camera: &Camera, solid: &Solid, seen: FaceSet) {
-    for face in faces(solid) {
-        let visible = face.faces().first().filter(|&f| seen.contains(f));
-        if let Some(name) = visible {
-            let opacity = 0.05 + 0.02 * f64::from(name as u8);
-            let area = places(camera, &corners(solid, face));
-            canvas.polygon(&area, canvas.palette.ink, opacity, 0.0);
-        }
-    }
-}
-
-fn places(camera: &Camera, points: &[Vec3<f64>]) -> Vec<Place> {
-    points.iter().map(|&p| camera.place(p)).collect()
-}
-
-fn highlight(canvas: &mut Canvas, camera: &Camera, solid: &Solid, feature: Feature, sizes: Sizes) {
-    let at = places(camera, &corners(solid, feature));
-    let colour = canvas.palette.highlight;
-    match at[..] {
-        [point] => canvas.disc(point, 2.4 * sizes.mark, colour),
-        [a, b] => canvas.line(a, b, Pen::new(colour, 2.8 * sizes.mark)),
-        _ => canvas.polygon(&at, colour, 0.8, 0.0),
-    }
-}
-
-/// Full if one of its faces is seen; where there is no end, dots go on.
-fn draw_edge(
-    canvas: &mut Canvas,
-    camera: &Camera,
-    solid: &Solid,
-    edge: Feature,
+/// A solid before a camera.
+struct View<'a> {
+    camera: &'a Camera,
+    solid: &'a Solid,
+    /// The faces that the camera sees.
     seen: FaceSet,
     sizes: Sizes,
-) {
-    let ends = places(camera, &corners(solid, edge));
-    let [a, b] = ends[..] else {
-        return;
-    };
-    let hidden = edge.faces().intersection(seen).is_empty();
-    let pen = if hidden {
-        Pen::new(canvas.palette.classes[0], 0.8 * sizes.thin).dashed()
-    } else {
-        Pen::new(canvas.palette.ink, sizes.thin)
-    };
-    canvas.line(a, b, pen);
-    let [u, v, w] = edge.grid();
-    if solid.is_infinite() && w == 0.5 {
-        let on = camera.place(solid.at([u, v, OPEN]));
-        canvas.line(
-            b,
-            on,
-            Pen::new(canvas.palette.classes[0], sizes.thin).dashed(),
-        );
+}
+
+impl View<'_> {
+    fn is_hidden(&self, feature: Feature) -> bool {
+        feature.faces().intersection(self.seen).is_empty()
+    }
+
+    fn places(&self, feature: Feature) -> Vec<Place> {
+        let corners = corners(self.solid, feature).into_iter();
+        corners.map(|p| self.camera.place(p)).collect()
+    }
+
+    /// A little colour on what is seen, each face its own shade.
+    fn shade(&self, canvas: &mut Canvas) {
+        for face in faces(self.solid).filter(|&f| !self.is_hidden(f)) {
+            let name = face.faces().first().map_or(0, |f| f as u8);
+            let opacity = 0.05 + 0.02 * f64::from(name);
+            canvas.polygon(&self.places(face), canvas.palette.ink, opacity, 0.0);
+        }
+    }
+
+    /// What is behind shines through.
+    fn highlight(&self, canvas: &mut Canvas, feature: Feature) {
+        let (at, mark) = (self.places(feature), self.sizes.mark);
+        let colour = canvas.palette.highlight;
+        match at[..] {
+            [point] => canvas.disc(point, 2.4 * mark, colour),
+            [a, b] => canvas.line(a, b, Pen::new(colour, 2.8 * mark)),
+            _ if self.is_hidden(feature) => canvas.polygon(&at, colour, 0.4, 0.0),
+            _ => canvas.polygon(&at, colour, 0.8, 0.0),
+        }
+    }
+
+    /// Dashed if none of its faces is seen; where there is no end, dashes go on.
+    fn edge(&self, canvas: &mut Canvas, edge: Feature) {
+        let ends = self.places(edge);
+        let [a, b] = ends[..] else {
+            return;
+        };
+        let faint = Pen::new(canvas.palette.classes[0], 0.8 * self.sizes.thin).dashed();
+        let pen = if self.is_hidden(edge) {
+            faint
+        } else {
+            Pen::new(canvas.palette.ink, self.sizes.thin)
+        };
+        canvas.line(a, b, pen);
+        let [u, v, w] = edge.grid();
+        if self.solid.is_infinite() && w == 0.5 {
+            let on = self.solid.at([u, v, OPEN]);
+            canvas.line(b, self.camera.place(on), faint);
+        }
     }
 }
