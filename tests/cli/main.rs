@@ -5,10 +5,13 @@ mod bad_input;
 mod formats;
 mod output;
 mod report;
+mod samples;
+mod shell;
 mod statistics;
 mod view;
 
 use serde_json::Value;
+use std::ffi::{OsStr, OsString};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
@@ -25,10 +28,16 @@ fn fixture(name: &str) -> String {
     path.to_str().unwrap().to_owned()
 }
 
-/// Runs `frusta clip`.
-fn clip<S: AsRef<std::ffi::OsStr>>(args: impl IntoIterator<Item = S>) -> Output {
+/// Runs the program.
+fn frusta<S: AsRef<OsStr>>(args: impl IntoIterator<Item = S>) -> Output {
     let mut command = Command::new(env!("CARGO_BIN_EXE_frusta"));
-    command.arg("clip").args(args).output().unwrap()
+    command.args(args).output().unwrap()
+}
+
+/// Runs `frusta clip`.
+fn clip<S: AsRef<OsStr>>(args: impl IntoIterator<Item = S>) -> Output {
+    let args = args.into_iter().map(|arg| arg.as_ref().to_owned());
+    frusta([OsString::from("clip")].into_iter().chain(args))
 }
 
 /// Runs `frusta clip --json` and gives the statistics.

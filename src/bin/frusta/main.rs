@@ -5,6 +5,7 @@ mod engine;
 mod failure;
 mod frustum_file;
 mod input;
+mod manual;
 mod number;
 mod output;
 mod picture;

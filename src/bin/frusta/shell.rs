@@ -3,11 +3,11 @@
 
 use crate::EXIT_CODES;
 use crate::failure::{Failure, quote};
+use crate::manual;
 use crate::terminal::print;
 use crate::whole_file::WholeFile;
 use clap::{Args, Command, CommandFactory};
 use clap_complete::Shell;
-use clap_mangen::Man;
 
 use std::path::PathBuf;
 
@@ -47,7 +47,7 @@ pub(crate) fn completions(args: &CompletionsArgs) -> Result<(), Failure> {
 pub(crate) fn man(args: &ManArgs) -> Result<(), Failure> {
     let program = program();
     let Some(folder) = &args.output else {
-        return print(&page(find(&program, &args.path)?)?);
+        return print(&manual::page(find(&program, &args.path)?)?);
     };
     let mut pages = Vec::new();
     collect(&program, &mut pages)?;
@@ -84,17 +84,9 @@ fn find<'a>(program: &'a Command, path: &[String]) -> Result<&'a Command, Failur
 
 /// The pages of a command and of all below it, with their files' names.
 fn collect(command: &Command, pages: &mut Vec<(String, String)>) -> Result<(), Failure> {
-    pages.push((Man::new(command.clone()).get_filename(), page(command)?));
+    pages.push((manual::file_name(command), manual::page(command)?));
     let mut below = command.get_subcommands();
     below.try_for_each(|command| collect(command, pages))
-}
-
-fn page(command: &Command) -> Result<String, Failure> {
-    let mut roff = Vec::new();
-    Man::new(command.clone())
-        .render(&mut roff)
-        .map_err(Failure::new)?;
-    String::from_utf8(roff).map_err(Failure::new)
 }
 
 const COMPLETIONS: &str = "\

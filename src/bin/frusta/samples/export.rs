@@ -163,8 +163,8 @@ Files, three for each solid and placement
   NAME.segments.csv   x0,y0,z0,x1,y1,z1; a sample a row
   NAME.expected.csv   what `frusta clip NAME.segments.csv --frustum NAME.frustum.json -o FILE.csv`
                       has to write, byte for byte; see `frusta clip --help` for the columns
-and
-  samples.json        all of it as one array: names, labels, numbers also in hexadecimal, reasons
+  samples.json        once: all of it as one array: names, labels, numbers also in hexadecimal,
+                      reasons
 Decimals are the shortest that read back to the same double. Every number of the inputs and of the
 answers is exact, so a program that is right gives these parameters, points and sets and no others.
 
