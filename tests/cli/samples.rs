@@ -82,7 +82,7 @@ fn each_sample_shows_that_the_answer_is_right() {
         let shown = succeed(&["show", &name]);
         assert!(shown.starts_with(&name), "{shown}");
         assert!(shown.contains("answers the same, in every bit"), "{shown}");
-        assert!(shown.contains("because") && shown.contains("0x"), "{shown}");
+        assert!(shown.contains("reason") && shown.contains("0x"), "{shown}");
     }
     let shown = succeed(&[
         "show",

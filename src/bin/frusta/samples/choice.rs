@@ -58,13 +58,14 @@ pub(super) fn find(solid: &Solid, name: &str) -> Result<FrameSample, Failure> {
     )))
 }
 
-/// The three names most like a text: those that begin with it first.
+/// The four names most like a text, those that begin with it first: a feature's
+/// name alone gives its samples.
 fn nearest<'a>(text: &str, names: &'a [String]) -> Vec<&'a str> {
     // No name is half as long; a long text takes time and is like none.
     let text: String = text.chars().take(64).collect();
     let mut ranked: Vec<&str> = names.iter().map(String::as_str).collect();
     ranked.sort_by_cached_key(|name| (!name.starts_with(&text), distance(&text, name)));
-    ranked.truncate(3);
+    ranked.truncate(4);
     ranked
 }
 
@@ -102,7 +103,7 @@ mod tests {
         let why = |name: &str| find(&solid, name).unwrap_err().to_string();
         assert!(why("edge-neer-top/crossing").contains("are edge-near-top/crossing,"));
         let all = why("face-far");
-        for relation in ["touching", "crossing", "contained"] {
+        for relation in ["touching", "crossing", "contained", "apart"] {
             assert!(all.contains(&format!("face-far/{relation}")), "{all}");
         }
         assert_eq!(

@@ -96,7 +96,7 @@ fn text(solid: &Solid, frustum: &Frustum, case: &Case, found: &SegmentClip<f64>)
     row("t inside TW", &interval(on_w));
     row("t inside both", &interval(both));
     describe(&case.expected, "expected", &mut row);
-    row("because", sample.reason);
+    row("reason", sample.reason);
     if agrees(found, case) {
         row("clip_segment", "answers the same, in every bit");
     } else {
@@ -194,3 +194,22 @@ Exit codes:
   0  done
   1  the library's answer is not the exact one
   2  wrong usage, an unknown sample, or a file that cannot be written";
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_plain_steps_give_the_exact_parameters_of_these_samples() {
+        for solid in Solid::ALL {
+            let frustum = Placement::IDENTITY.place(&solid).unwrap();
+            for sample in choice::samples(&solid, true) {
+                let [on_v, on_w] = intervals(&frustum, &sample.segment);
+                let both = on_v.zip(on_w).and_then(|(v, w)| v.intersection(w));
+                let t = both.map(|both| [both.start(), both.end()]);
+                let expected = sample.expected.part.map(|part| part.t);
+                assert_eq!(t, expected, "{} {}", solid.name, sample.name());
+            }
+        }
+    }
+}

@@ -11,6 +11,8 @@ pub(super) struct Camera {
     right: Vec3<f64>,
     up: Vec3<f64>,
     forward: Vec3<f64>,
+    /// Nothing nearer is drawn.
+    nearest: f64,
     scale: f64,
     middle: Place,
     offset: Place,
@@ -32,17 +34,18 @@ impl Camera {
             right,
             up: right.cross(forward),
             forward,
+            nearest: 0.2 * reach,
             scale: 1.0,
             middle: [0.0; 2],
             offset: [size[0] / 2.0, size[1] / 2.0],
         };
         let places: Vec<Place> = fit.iter().map(|&p| camera.project(p)).collect();
         let mut scale = f64::INFINITY;
-        for k in 0..2 {
+        for (k, room) in size.into_iter().enumerate() {
             let low = places.iter().map(|p| p[k]).fold(f64::INFINITY, f64::min);
             let high = places.iter().map(|p| p[k]).fold(-f64::INFINITY, f64::max);
             camera.middle[k] = 0.5 * (low + high);
-            scale = scale.min((size[k] - 2.0 * margin) / (high - low));
+            scale = scale.min((room - 2.0 * margin) / (high - low));
         }
         camera.scale = scale;
         camera
@@ -64,8 +67,7 @@ impl Camera {
 
     /// The parameters of what of a line lies well before the eye.
     pub(super) fn before_eye(&self, p: Vec3<f64>, q: Vec3<f64>) -> Option<[f64; 2]> {
-        let nearest = 0.05 * length(self.eye);
-        let [a, b] = [p, q].map(|p| self.forward.dot(p - self.eye) - nearest);
+        let [a, b] = [p, q].map(|p| self.forward.dot(p - self.eye) - self.nearest);
         match (a < 0.0, b < 0.0) {
             (true, true) => None,
             (true, false) => Some([a / (a - b), 1.0]),

@@ -164,7 +164,7 @@ fn words(canvas: &mut Canvas, case: &Case, top: f64) {
     if !said.is_empty() {
         lines.push(said.join("; "));
     }
-    lines.extend(wrap(&format!("Because {}.", case.sample.reason), 125));
+    lines.extend(wrap(&format!("Reason: {}.", case.sample.reason), 125));
     for (i, line) in lines.iter().enumerate() {
         canvas.text([MARGIN, top + 26.0 * i as f64], line, type_);
     }

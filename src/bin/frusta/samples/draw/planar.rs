@@ -53,11 +53,11 @@ impl Frame {
                 middle: [0.0; 2],
                 offset: [size[0] / 2.0, size[1] / 2.0],
             };
-            for k in 0..2 {
+            for (k, room) in size.into_iter().enumerate() {
                 let all = || fit.iter().map(|&p| frame.coordinates(p)[k]);
                 let low = all().fold(f64::INFINITY, f64::min);
                 let high = all().fold(-f64::INFINITY, f64::max);
-                scale = scale.min((size[k] - 2.0 * margin) / (high - low));
+                scale = scale.min((room - 2.0 * margin) / (high - low));
                 frame.middle[k] = 0.5 * (low + high);
             }
             frame

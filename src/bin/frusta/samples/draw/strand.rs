@@ -73,10 +73,10 @@ fn arrow(canvas: &mut Canvas, from: Place, to: Place, sizes: Sizes, colour: &str
     if length < 1e-6 {
         return;
     }
-    let size = 2.2 * sizes.thin + sizes.mark;
+    let size = 2.4 * sizes.thin + 1.4 * sizes.mark;
     let [x, y] = d.map(|c| c / length * size);
     let base = [to[0] - x, to[1] - y];
-    let wing = |side: f64| [base[0] - 0.4 * side * y, base[1] + 0.4 * side * x];
+    let wing = |side: f64| [base[0] - 0.45 * side * y, base[1] + 0.45 * side * x];
     canvas.polygon(&[to, wing(1.0), wing(-1.0)], colour, 1.0, 0.0);
 }
 
