@@ -54,6 +54,11 @@ pub(super) fn draw(
         && clip.class != Class::Touch
     {
         canvas.line(place(from), place(to), Pen::new(colour, sizes.thick));
+        // A projection along the segment is a point, which a line does not show.
+        let ([x0, y0], [x1, y1]) = (place(from), place(to));
+        if (x1 - x0).hypot(y1 - y0) < sizes.thick {
+            canvas.disc(place(from), 0.9 * sizes.thick, colour);
+        }
     }
     let tip = if last == 1.0 && inside.is_some_and(|[from, to]| from < to) {
         colour
