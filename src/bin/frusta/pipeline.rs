@@ -13,11 +13,15 @@ use std::thread;
 /// How many jobs may wait for each worker, and results for the sink.
 const DEPTH: usize = 2;
 
-/// Runs all jobs that `next` gives (until `None`) through workers made by
-/// `worker`, one a thread, and their results through `sink` in order.
+/// What a producer calls with each job. An error says that nobody takes jobs any
+/// more; the producer hands it on and ends.
+pub(crate) type Emit<'a, J> = dyn FnMut(J) -> Result<(), Failure> + 'a;
+
+/// Runs all jobs that `produce` emits through workers made by `worker`, one a
+/// thread, and their results through `sink` in order.
 pub(crate) fn run<J: Send, R: Send, W: FnMut(J) -> Result<R, Failure>>(
     threads: usize,
-    next: impl FnMut() -> Result<Option<J>, Failure> + Send,
+    produce: impl FnOnce(&mut Emit<'_, J>) -> Result<(), Failure> + Send,
     worker: impl Fn() -> W + Sync,
     mut sink: impl FnMut(R) -> Result<(), Failure>,
 ) -> Result<(), Failure> {
@@ -32,7 +36,7 @@ pub(crate) fn run<J: Send, R: Send, W: FnMut(J) -> Result<R, Failure>>(
             let worker = &worker;
             scope.spawn(move || work(worker(), &jobs, &results));
         }
-        scope.spawn(move || distribute(next, &inputs));
+        scope.spawn(move || distribute(produce, &inputs));
         for output in outputs.iter().cycle() {
             // A worker that hangs up has no job left, nor has any after it.
             let Ok(result) = output.recv() else {
@@ -60,19 +64,17 @@ fn work<J, R>(
 
 /// Deals out the jobs; a failure to read travels with them, in its place.
 fn distribute<J>(
-    mut next: impl FnMut() -> Result<Option<J>, Failure>,
+    produce: impl FnOnce(&mut Emit<'_, J>) -> Result<(), Failure>,
     inputs: &[SyncSender<Result<J, Failure>>],
 ) {
-    for input in inputs.iter().cycle() {
-        let job = match next() {
-            Ok(Some(job)) => Ok(job),
-            Ok(None) => return,
-            Err(failure) => Err(failure),
-        };
-        let failed = job.is_err();
-        if input.send(job).is_err() || failed {
-            return;
-        }
+    let mut turns = inputs.iter().cycle();
+    let mut deal = |job| match turns.next().map(|input| input.send(job)) {
+        Some(Ok(())) => Ok(()),
+        _ => Err(Failure::new("nobody takes the jobs")),
+    };
+    if let Err(failure) = produce(&mut |job| deal(Ok(job))) {
+        // Where nobody listens any more, a failure has been told already.
+        let _ = deal(Err(failure));
     }
 }
 
@@ -81,11 +83,10 @@ mod tests {
     use super::*;
 
     fn squares(threads: usize, fail_at: Option<u64>) -> (Vec<u64>, Result<(), Failure>) {
-        let mut jobs = 0..1000_u64;
         let mut seen = Vec::new();
         let result = run(
             threads,
-            || Ok(jobs.next()),
+            |emit| (0..1000_u64).try_for_each(emit),
             || {
                 move |job: u64| match fail_at {
                     Some(at) if job >= at => Err(Failure::new(job)),
@@ -119,22 +120,22 @@ mod tests {
 
     #[test]
     fn a_failing_reader_or_sink_ends_the_run() {
-        let mut left = 5;
         let read = run(
             2,
-            || {
-                left -= 1;
-                if left == 0 {
-                    Err(Failure::new("torn"))
-                } else {
-                    Ok(Some(left))
-                }
+            |emit| {
+                (1..5).try_for_each(emit)?;
+                Err(Failure::new("torn"))
             },
             || Ok,
             |_| Ok(()),
         );
         assert_eq!(read, Err(Failure::new("torn")));
-        let full = run(2, || Ok(Some(1)), || Ok, |_| Err(Failure::new("full")));
+        let full = run(
+            2,
+            |emit| (0..).try_for_each(emit),
+            || Ok,
+            |_| Err(Failure::new("full")),
+        );
         assert_eq!(full, Err(Failure::new("full")));
     }
 }

@@ -14,10 +14,20 @@ pub(crate) fn print(text: &str) -> Result<(), Failure> {
     }
 }
 
-/// A bar on the error stream; invisible where that is no terminal.
-pub(crate) fn progress_bar(size: u64) -> ProgressBar {
-    let bar = ProgressBar::new(size);
-    if let Ok(style) = ProgressStyle::with_template("{bar:40} {percent:>3} %  {eta} left") {
+/// A bar on the error stream; invisible where that is no terminal. Without a size
+/// it counts bytes.
+pub(crate) fn progress_bar(size: impl Into<Option<u64>>) -> ProgressBar {
+    let (bar, template) = match size.into() {
+        Some(size) => (
+            ProgressBar::new(size),
+            "{bar:40} {percent:>3} %  {eta} left",
+        ),
+        None => (
+            ProgressBar::no_length(),
+            "{spinner} {decimal_bytes} read, {decimal_bytes_per_sec}",
+        ),
+    };
+    if let Ok(style) = ProgressStyle::with_template(template) {
         bar.set_style(style);
     }
     bar

@@ -12,7 +12,8 @@ mod source;
 use crate::EXIT_CODES;
 use crate::engine::{Accuracy, Algorithm, Arithmetic, Engine};
 use crate::failure::Failure;
-use crate::input::{EdgeChoice, Format};
+use crate::input::geojson::Positions;
+use crate::input::{self, EdgeChoice, Input};
 use crate::number::Scalar;
 use crate::output::{self, Kind, Writer};
 use crate::stats::{Report, Times};
@@ -31,8 +32,11 @@ use std::time::Instant;
 #[derive(Args, Debug)]
 #[command(after_help = HELP_END, after_long_help = format!("{FORMATS}\n{EXIT_CODES}"))]
 pub(crate) struct ClipArgs {
-    /// What to clip: .glb, .gltf, .obj, or .csv with a segment x0,y0,z0,x1,y1,z1 a row
+    /// What to clip: .glb .gltf .obj .stl .ply .csv .geojson .geojsonl, or - for the standard input
     file: PathBuf,
+    /// The file's format [default: by its name]
+    #[arg(long, value_name = "FORMAT")]
+    from: Option<input::Format>,
     /// Write the result: .csv (a row a segment), .obj (lines), .svg (what the camera sees)
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
@@ -42,6 +46,9 @@ pub(crate) struct ClipArgs {
     /// Edges to take from a mesh [default: lines if the file has any, else triangles]
     #[arg(long)]
     edges: Option<EdgeChoice>,
+    /// GeoJSON: take positions as degrees and metres on WGS 84; coordinates are earth-centred metres
+    #[arg(long)]
+    ecef: bool,
     /// The algorithm
     #[arg(long, default_value = "vw")]
     algorithm: Algorithm,
@@ -83,9 +90,15 @@ fn run_as<T: Scalar>(args: &ClipArgs) -> Result<(), Failure> {
     if args.arithmetic == Arithmetic::Plain && args.accuracy.is_some() {
         return Err(Failure::new("--accuracy is for --arithmetic exact"));
     }
-    let format = Format::of(&args.file)?;
+    let input = Input::new(&args.file, args.from)?;
+    let (name, format) = (input.name().display().to_string(), input.format.name());
     let kind = Kind::of(args.output.as_deref())?;
-    let source = Source::open(&args.file, format, args.edges)?;
+    let positions = if args.ecef {
+        Positions::Ecef
+    } else {
+        Positions::AsGiven
+    };
+    let source = Source::open(input, args.edges, positions)?;
     let view = args.view.view(|| source.bounds())?;
     let accuracy = args.accuracy.unwrap_or(Accuracy::Fast);
     let run = Run {
@@ -102,14 +115,14 @@ fn run_as<T: Scalar>(args: &ClipArgs) -> Result<(), Failure> {
     };
     let counts = run.clip(&mut writer, &mut times)?;
     let finish = Instant::now();
-    let title = format!("{}   {}", args.file.display(), view.flags);
+    let title = format!("{name}   {}", view.flags);
     writer.finish(&title, &counts.classes)?;
     times.write += finish.elapsed();
     times.total = start.elapsed();
     let (arithmetic, accuracy) = run.engine.arithmetic();
     let report = Report {
-        file: args.file.display().to_string(),
-        format: format.name(),
+        file: name,
+        format,
         edges: source.edges(),
         algorithm: run.engine.name(),
         arithmetic,

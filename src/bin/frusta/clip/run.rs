@@ -5,7 +5,7 @@ use crate::engine::Engine;
 use crate::failure::Failure;
 use crate::number::Scalar;
 use crate::output::{self, Formatted, Writer};
-use crate::pipeline;
+use crate::pipeline::{self, Emit};
 use crate::stats::{Counts, Times};
 use crate::terminal::progress_bar;
 use frusta::{Frustum, Segment, SegmentClip};
@@ -35,11 +35,15 @@ impl<T: Scalar> Run<'_, T> {
     pub(super) fn clip(&self, writer: &mut Writer, times: &mut Times) -> Result<Counts, Failure> {
         let bar = progress_bar(self.source.size());
         let mut counts = Counts::default();
-        let mut next = self.source.chunks::<T>()?;
-        let timed = || {
-            let start = Instant::now();
-            let chunk = next()?;
-            Ok(chunk.map(|chunk| (chunk, start.elapsed())))
+        let timed = |emit: &mut Emit<'_, (Chunk, Duration)>| {
+            let mut start = Instant::now();
+            self.source.chunks(&mut |chunk| {
+                let read = start.elapsed();
+                let sent = emit((chunk, read));
+                // Waiting for a worker is not reading.
+                start = Instant::now();
+                sent
+            })
         };
         let result = pipeline::run(
             self.threads,
@@ -61,13 +65,13 @@ impl<T: Scalar> Run<'_, T> {
     }
 
     /// A worker with buffers of its own, which it uses again for each chunk.
-    fn worker(&self) -> impl FnMut((Chunk<T>, Duration)) -> Result<Done, Failure> {
+    fn worker(&self) -> impl FnMut((Chunk, Duration)) -> Result<Done, Failure> {
         let mut segments: Vec<Segment<T>> = Vec::new();
         let mut clips: Vec<SegmentClip<T>> = Vec::new();
         move |(chunk, read)| {
             let (first, position) = (chunk.first, chunk.position);
             let start = Instant::now();
-            self.source.load(chunk, &mut segments);
+            self.source.load(chunk, &mut segments)?;
             let loaded = Instant::now();
             let mut counts = Counts::default();
             clips.clear();

@@ -1,126 +1,197 @@
-//! Where segments come from: a scene in memory or a file of rows.
+//! Where segments come from: a scene in memory, or a stream.
 
 use crate::failure::Failure;
-use crate::input::csv::{self, Rows};
-use crate::input::{self, Bounds, EdgeChoice, Format, Scene};
+use crate::input::geojson::{self, Positions};
+use crate::input::{self, Bounds, EdgeChoice, Format, Input, Scene, csv, obj};
 use crate::number::Scalar;
-use frusta::{NonFinite, Segment};
-use std::path::{Path, PathBuf};
+use crate::pipeline::Emit;
+use frusta::{NonFinite, Segment, Vec3};
 
 /// Segments in a chunk: few enough that a chunk's results stay in cache.
 const CHUNK: u64 = 4096;
 
-/// A file to clip.
+/// What to clip.
 pub(super) struct Source {
-    file: PathBuf,
-    /// `None` for a file of rows.
+    input: Input,
+    positions: Positions,
+    /// `None` for what stays a stream.
     scene: Option<Scene>,
 }
 
 /// Consecutive segments.
-pub(super) struct Chunk<T> {
+pub(super) struct Chunk {
     /// The first one's number.
     pub(super) first: u64,
     /// How far the source has been read, of [`Source::size`].
     pub(super) position: u64,
-    load: Load<T>,
+    load: Load,
 }
 
-/// Gives a source's chunks, then `None`.
-pub(super) trait Chunks<T>: FnMut() -> Result<Option<Chunk<T>>, Failure> + Send {}
-
-impl<T, F: FnMut() -> Result<Option<Chunk<T>>, Failure> + Send> Chunks<T> for F {}
-
-enum Load<T> {
+enum Load {
     /// So many of the scene's.
     Edges(u64),
+    /// Rows, to be parsed.
+    Rows(csv::Block),
     /// These.
-    Rows(Vec<Segment<T>>),
+    Segments(Vec<Segment<f64>>),
 }
 
 impl Source {
     /// Opens a file; a mesh is read as a whole.
     pub(super) fn open(
-        file: &Path,
-        format: Format,
+        input: Input,
         edges: Option<EdgeChoice>,
+        positions: Positions,
     ) -> Result<Self, Failure> {
-        let scene = match format {
-            Format::Csv if edges.is_some() => {
-                let why = "--edges is for meshes; a CSV file has rows";
-                return Err(Failure::in_file(file, why));
-            }
-            Format::Csv => None,
-            _ => Some(input::read_scene(file, format, edges)?),
+        let fail = |why: &str| Err(Failure::in_file(input.name(), why));
+        if positions == Positions::Ecef && !input.format.is_geographic() {
+            return fail("--ecef is for GeoJSON: it needs longitudes and latitudes");
+        }
+        if edges.is_some() && !input.format.is_mesh() {
+            return fail("--edges is for meshes");
+        }
+        let streamed = match input.format {
+            Format::Obj => edges == Some(EdgeChoice::Lines),
+            format => !format.is_mesh(),
+        };
+        let scene = match streamed {
+            true => None,
+            false => Some(input::read_scene(&input, edges)?),
         };
         Ok(Self {
-            file: file.to_owned(),
+            input,
+            positions,
             scene,
         })
     }
 
-    /// A box around all segments.
+    /// A box around all segments; a stream is read once for it.
     pub(super) fn bounds(&self) -> Result<Bounds, Failure> {
-        match &self.scene {
-            Some(scene) => Ok(scene.bounds()),
-            None => csv::bounds(&self.file),
+        if let Some(scene) = &self.scene {
+            return Ok(scene.bounds());
         }
+        if self.input.is_piped() {
+            let why = "it is read once: give the view with --eye and --target, or --frustum";
+            return Err(Failure::in_file(self.input.name(), why));
+        }
+        let mut bounds = Bounds::EMPTY;
+        let mut add = |segment: Segment<f64>| {
+            bounds.add(segment.start);
+            bounds.add(segment.end);
+        };
+        let mut rows = Vec::new();
+        if self.input.format == Format::Csv {
+            csv::blocks(&self.input, |block| {
+                rows.clear();
+                let parsed = block.parse(&mut rows);
+                parsed.map_err(|e| self.failure_in_line(e))?;
+                rows.iter().copied().for_each(&mut add);
+                Ok(())
+            })?;
+        } else {
+            self.stream(&mut |segment| {
+                add(segment);
+                Ok(())
+            })?;
+        }
+        Ok(bounds)
     }
 
     /// Which edges are read, of a mesh.
     pub(super) fn edges(&self) -> Option<&'static str> {
-        self.scene.as_ref().map(|scene| scene.kind().name())
-    }
-
-    /// What the progress is measured by: segments, or bytes of rows.
-    pub(super) fn size(&self) -> u64 {
         match &self.scene {
-            Some(scene) => scene.len(),
-            None => self.file.metadata().map_or(0, |m| m.len()),
+            Some(scene) => Some(scene.kind().name()),
+            None => (self.input.format == Format::Obj).then(|| EdgeChoice::Lines.name()),
         }
     }
 
-    /// A function that gives the next chunk.
-    pub(super) fn chunks<T: Scalar>(&self) -> Result<impl Chunks<T>, Failure> {
-        let mut rows = match &self.scene {
-            Some(_) => None,
-            None => Some(Rows::open(&self.file)?),
-        };
-        let total = self.scene.as_ref().map_or(0, Scene::len);
+    /// What the progress is measured by: segments, or bytes; `None` for a pipe.
+    pub(super) fn size(&self) -> Option<u64> {
+        match &self.scene {
+            Some(scene) => Some(scene.len()),
+            None => self.input.size(),
+        }
+    }
+
+    /// Emits all chunks in order.
+    pub(super) fn chunks(&self, emit: &mut Emit<'_, Chunk>) -> Result<(), Failure> {
         let mut first = 0;
-        Ok(move || {
-            let (load, count, position) = match &mut rows {
-                Some(rows) => {
-                    let segments = read_rows(rows)?;
-                    let count = segments.len() as u64;
-                    (Load::Rows(segments), count, rows.position())
-                }
-                None => {
-                    let count = CHUNK.min(total - first);
-                    (Load::Edges(count), count, first + count)
-                }
-            };
+        let mut send = |load, count, position| {
             let chunk = Chunk {
                 first,
                 position,
                 load,
             };
             first += count;
-            Ok((count > 0).then_some(chunk))
-        })
+            emit(chunk)
+        };
+        if let Some(scene) = &self.scene {
+            let total = scene.len();
+            return (0..total).step_by(CHUNK as usize).try_for_each(|start| {
+                let count = CHUNK.min(total - start);
+                send(Load::Edges(count), count, start + count)
+            });
+        }
+        if self.input.format == Format::Csv {
+            return csv::blocks(&self.input, |block| {
+                let rows = block.rows();
+                send(Load::Rows(block), rows, self.input.position())
+            });
+        }
+        let mut segments = Vec::new();
+        let mut count = 0_u64;
+        self.stream(&mut |segment| {
+            segments.push(segment);
+            count += 1;
+            if segments.len() as u64 == CHUNK {
+                let full = std::mem::take(&mut segments);
+                send(Load::Segments(full), CHUNK, self.input.position())?;
+            }
+            Ok(())
+        })?;
+        if count == 0 {
+            return Err(Failure::in_file(
+                self.input.name(),
+                "the file has no lines or polygons",
+            ));
+        }
+        let left = segments.len() as u64;
+        send(Load::Segments(segments), left, self.input.position())
+    }
+
+    /// Gives every segment of what is read one by one.
+    fn stream(
+        &self,
+        take: &mut dyn FnMut(Segment<f64>) -> Result<(), Failure>,
+    ) -> Result<(), Failure> {
+        match self.input.format {
+            Format::Geojson => geojson::document(&self.input, self.positions, take),
+            Format::Geojsonl => geojson::sequence(&self.input, self.positions, take),
+            _ => obj::lines(&self.input, take),
+        }
     }
 
     /// Puts a chunk's segments into `out`.
-    pub(super) fn load<T: Scalar>(&self, chunk: Chunk<T>, out: &mut Vec<Segment<T>>) {
-        match chunk.load {
-            Load::Rows(rows) => *out = rows,
-            Load::Edges(count) => {
-                out.clear();
-                if let Some(scene) = &self.scene {
-                    scene.fill(chunk.first, count, out);
-                }
-            }
+    pub(super) fn load<T: Scalar>(
+        &self,
+        chunk: Chunk,
+        out: &mut Vec<Segment<T>>,
+    ) -> Result<(), Failure> {
+        out.clear();
+        match (chunk.load, &self.scene) {
+            (Load::Rows(block), _) => block.parse(out).map_err(|e| self.failure_in_line(e))?,
+            (Load::Segments(segments), _) => out.extend(segments.iter().map(|s| Segment {
+                start: Vec3::from_f64(s.start),
+                end: Vec3::from_f64(s.end),
+            })),
+            (Load::Edges(count), Some(scene)) => scene.fill(chunk.first, count, out),
+            (Load::Edges(_), None) => {}
         }
+        Ok(())
+    }
+
+    fn failure_in_line(&self, (line, why): (u64, String)) -> Failure {
+        Failure::at(self.input.name(), format_args!("line {line}"), why)
     }
 
     /// The failure for a segment that cannot be clipped.
@@ -129,17 +200,6 @@ impl Source {
             Some(scene) => scene.place(index),
             None => format!("segment {index}"),
         };
-        Failure::at(&self.file, place, why)
+        Failure::at(self.input.name(), place, why)
     }
-}
-
-fn read_rows<T: Scalar>(rows: &mut Rows) -> Result<Vec<Segment<T>>, Failure> {
-    let mut segments = Vec::with_capacity(CHUNK as usize);
-    while segments.len() < CHUNK as usize {
-        match rows.next()? {
-            Some(segment) => segments.push(segment),
-            None => break,
-        }
-    }
-    Ok(segments)
 }

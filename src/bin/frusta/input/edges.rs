@@ -1,6 +1,43 @@
 //! The edges of faces, each once.
 
 use frusta::Vec3;
+use std::collections::HashMap;
+use std::collections::hash_map::Entry;
+
+/// Points without repetition, for files that list a triangle's corners again and
+/// again.
+#[derive(Debug, Default)]
+pub(crate) struct PointSet {
+    points: Vec<Vec3<f64>>,
+    numbers: HashMap<[u64; 3], u32>,
+}
+
+impl PointSet {
+    /// A point's number.
+    pub(crate) fn number(&mut self, point: Vec3<f64>) -> Result<u32, String> {
+        let next = self.points.len();
+        match self.numbers.entry(key(point)) {
+            Entry::Occupied(known) => Ok(*known.get()),
+            Entry::Vacant(_) if next >= u32::MAX as usize => {
+                Err("more than 4294967295 different points".to_owned())
+            }
+            Entry::Vacant(new) => {
+                self.points.push(point);
+                Ok(*new.insert(next as u32))
+            }
+        }
+    }
+
+    /// The points, in the order in which they came.
+    pub(crate) fn finish(self) -> Vec<Vec3<f64>> {
+        self.points
+    }
+}
+
+/// What equal points have in common; adding zero makes the two zeros one.
+fn key(point: Vec3<f64>) -> [u64; 3] {
+    point.to_array().map(|c| (c + 0.0).to_bits())
+}
 
 /// Collects the edges of faces and gives each once.
 ///
@@ -33,8 +70,7 @@ impl UniqueEdges {
 
 /// For each point the first point that equals it.
 fn first_at_same_place(points: &[Vec3<f64>]) -> Vec<u32> {
-    // Adding zero makes the two zeros one.
-    let key = |i: u32| points[i as usize].to_array().map(|c| (c + 0.0).to_bits());
+    let key = |i: u32| key(points[i as usize]);
     let mut order: Vec<u32> = (0..points.len() as u32).collect();
     order.sort_unstable_by_key(|&i| (key(i), i));
     let mut same: Vec<u32> = (0..points.len() as u32).collect();

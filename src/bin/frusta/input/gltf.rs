@@ -10,13 +10,15 @@
 
 use super::edges::UniqueEdges;
 use super::gltf_data::{self, Data};
+use super::opened::Input;
 use super::scene::{Instance, Mesh, Transform};
-use super::{EdgeChoice, Scene};
+use super::{EdgeChoice, Scene, stl};
 use crate::failure::Failure;
 use gltf::json;
 use gltf::json::validation::Checked;
 use gltf::mesh::Mode;
 use std::collections::HashMap;
+use std::io::Read;
 use std::path::Path;
 
 /// Extensions that change nothing of what is read here, or that it handles.
@@ -36,11 +38,30 @@ const MISSING: [&str; 1] = ["EXT_mesh_gpu_instancing"];
 const POSITIONS: Checked<gltf::Semantic> = Checked::Valid(gltf::Semantic::Positions);
 
 /// Reads a file's edges.
-pub(super) fn read(
-    file: &Path,
-    bytes: &[u8],
-    choice: Option<EdgeChoice>,
-) -> Result<Scene, Failure> {
+pub(super) fn read(input: &Input, choice: Option<EdgeChoice>) -> Result<Scene, Failure> {
+    let mut reader = input.open()?;
+    let mut bytes = vec![0; 12];
+    let have = stl::fill(&mut reader, &mut bytes).map_err(|e| input.failure(e))?;
+    bytes.truncate(have);
+    // What cannot be glTF is not read: it could be of any length.
+    let limit = match bytes.get(8..12).and_then(|b| b.first_chunk()) {
+        Some(&length) if bytes.starts_with(b"glTF") => u64::from(u32::from_le_bytes(length)),
+        _ if bytes.starts_with(b"glTF") || bytes.trim_ascii_start().starts_with(b"{") => u64::MAX,
+        _ if have == 0 => return Err(input.failure("the file is empty")),
+        _ => {
+            let why = "not glTF: it begins neither with glTF nor with {";
+            return Err(input.failure(why));
+        }
+    };
+    reader
+        .take(limit.saturating_sub(have as u64))
+        .read_to_end(&mut bytes)
+        .map_err(|e| input.failure(e))?;
+    read_bytes(input.name(), &bytes, choice)
+}
+
+/// Reads the edges in a file's bytes.
+fn read_bytes(file: &Path, bytes: &[u8], choice: Option<EdgeChoice>) -> Result<Scene, Failure> {
     let (root, blob) = parse(file, bytes)?;
     let data = Data::load(file, &root, blob)?;
     let placed = place_nodes(&root).map_err(|why| Failure::in_file(file, why))?;
@@ -410,7 +431,7 @@ mod tests {
     fn damaged_files_are_read_or_refused_and_never_panic() {
         let whole = sample();
         let file = Path::new("damaged.glb");
-        let scene = read(file, &whole, Some(EdgeChoice::All)).unwrap();
+        let scene = read_bytes(file, &whole, Some(EdgeChoice::All)).unwrap();
         assert_eq!(scene.len(), 16 + 12);
         let mut state = 88_172_645_463_325_252_u64;
         let mut next = |most: usize| {
@@ -434,7 +455,7 @@ mod tests {
             if round % 16 == 0 {
                 bytes.truncate(next(bytes.len()));
             }
-            match read(file, &bytes, Some(EdgeChoice::All)) {
+            match read_bytes(file, &bytes, Some(EdgeChoice::All)) {
                 Ok(scene) => {
                     let mut segments = Vec::<frusta::Segment<f32>>::new();
                     scene.fill(0, scene.len(), &mut segments);

@@ -8,61 +8,137 @@
 //! back from the last vertex so far. A backslash at a line's end joins the next.
 
 use super::edges::UniqueEdges;
+use super::lines::{LineError, Lines};
+use super::opened::Input;
 use super::scene::{Instance, Mesh};
 use super::{EdgeChoice, Scene};
 use crate::failure::{Failure, quote};
 use crate::number;
-use frusta::Vec3;
-use std::borrow::Cow;
-use std::path::Path;
+use frusta::{Segment, Vec3};
 
 /// Reads a file's edges.
-pub(super) fn read(
-    file: &Path,
-    bytes: &[u8],
-    choice: Option<EdgeChoice>,
-) -> Result<Scene, Failure> {
+pub(super) fn read(input: &Input, choice: Option<EdgeChoice>) -> Result<Scene, Failure> {
+    let fail = |e| input.failure_in_line(e);
+    let mut lines = Lines::new(input.open()?);
     let mut reader = Reader::default();
-    for (number, line) in logical_lines(bytes) {
-        reader
-            .line(number, &line)
-            .map_err(|why| Failure::at(file, format_args!("line {number}"), why))?;
+    while let Some((number, line)) = lines.next_joined().map_err(fail)? {
+        let read = reader.line(number, line);
+        read.map_err(|why| fail((number, why)))?;
     }
-    reader
-        .finish(choice)
-        .map_err(|(number, why)| Failure::at(file, format_args!("line {number}"), why))
+    reader.finish(choice).map_err(fail)
+}
+
+/// Gives the segments of a file's `l` elements as they come.
+///
+/// Only the vertices are kept, since any element may name any of them. A file is
+/// read twice, so that an element may name one that comes later; the standard
+/// input cannot be.
+pub(crate) fn lines(
+    input: &Input,
+    take: &mut dyn FnMut(Segment<f64>) -> Result<(), Failure>,
+) -> Result<(), Failure> {
+    let fail = |e| input.failure_in_line(e);
+    let mut all = Reader::default();
+    if !input.is_piped() {
+        let mut lines = Lines::new(input.open()?);
+        while let Some((number, line)) = lines.next_joined().map_err(fail)? {
+            if let Some((Keyword::Vertex, rest)) = statement(line) {
+                all.vertex(rest).map_err(|why| fail((number, why)))?;
+            }
+        }
+    }
+    let mut reader = Reader::default();
+    let mut lines = Lines::new(input.open()?);
+    while let Some((number, line)) = lines.next_joined().map_err(fail)? {
+        let read = match statement(line) {
+            Some((Keyword::Vertex, rest)) if input.is_piped() => {
+                reader.count += 1;
+                all.vertex(rest)
+            }
+            Some((Keyword::Vertex, _)) => {
+                reader.count += 1;
+                Ok(())
+            }
+            Some((Keyword::Line, rest)) => reader.polyline(number, rest),
+            _ => Ok(()),
+        };
+        read.map_err(|why| fail((number, why)))?;
+        for edge in reader.lines.drain(..) {
+            let [Some(&start), Some(&end)] = edge.map(|v| all.points.get(v as usize)) else {
+                let vertex = u64::from(edge[0].max(edge[1])) + 1;
+                let why = format!(
+                    "vertex {vertex} of {}{}",
+                    all.points.len(),
+                    if input.is_piped() {
+                        " so far; in standard input vertices come before the lines"
+                    } else {
+                        ""
+                    }
+                );
+                return Err(fail((number, why)));
+            };
+            take(Segment { start, end })?;
+        }
+    }
+    Ok(())
+}
+
+/// The statements that are read.
+enum Keyword {
+    Vertex,
+    Line,
+    Face,
+}
+
+/// A line's statement and what follows its keyword.
+fn statement(line: &[u8]) -> Option<(Keyword, &[u8])> {
+    let line = line.trim_ascii_start();
+    let end = line.iter().position(u8::is_ascii_whitespace);
+    let (keyword, rest) = line.split_at(end.unwrap_or(line.len()));
+    let keyword = match keyword {
+        b"v" => Keyword::Vertex,
+        b"l" => Keyword::Line,
+        b"f" => Keyword::Face,
+        _ => return None,
+    };
+    Some((keyword, rest))
+}
+
+/// A statement's words, without a comment.
+fn words(rest: &[u8]) -> Result<impl Iterator<Item = &str>, String> {
+    let rest = std::str::from_utf8(rest).map_err(|_| "the line is not UTF-8".to_owned())?;
+    Ok(rest
+        .split('#')
+        .next()
+        .unwrap_or("")
+        .split_ascii_whitespace())
 }
 
 #[derive(Default)]
 struct Reader {
     points: Vec<Vec3<f64>>,
+    /// How many vertices came so far, kept or not.
+    count: u32,
     lines: Vec<[u32; 2]>,
     faces: UniqueEdges,
     /// The greatest vertex asked for and the line that asks, if it comes later.
-    ahead: Option<(u32, usize)>,
+    ahead: Option<(u32, u64)>,
     /// One statement's vertices; kept for its memory.
     indices: Vec<u32>,
 }
 
 impl Reader {
-    fn line(&mut self, number: usize, line: &[u8]) -> Result<(), String> {
-        let line = line.trim_ascii_start();
-        let end = line.iter().position(u8::is_ascii_whitespace);
-        let (keyword, rest) = line.split_at(end.unwrap_or(line.len()));
-        if !matches!(keyword, b"v" | b"l" | b"f") {
-            return Ok(());
-        }
-        let rest = std::str::from_utf8(rest).map_err(|_| "the line is not UTF-8".to_owned())?;
-        let rest = rest.split('#').next().unwrap_or("");
-        let words = rest.split_ascii_whitespace();
-        match keyword {
-            b"v" => self.vertex(words),
-            b"l" => self.polyline(number, words),
-            _ => self.face(number, words),
+    fn line(&mut self, number: u64, line: &[u8]) -> Result<(), String> {
+        match statement(line) {
+            Some((Keyword::Vertex, rest)) => self.vertex(rest),
+            Some((Keyword::Line, rest)) => self.polyline(number, rest),
+            Some((Keyword::Face, rest)) => self.face(number, rest),
+            None => Ok(()),
         }
     }
 
-    fn vertex<'a>(&mut self, mut words: impl Iterator<Item = &'a str>) -> Result<(), String> {
+    fn vertex(&mut self, rest: &[u8]) -> Result<(), String> {
+        let mut words = words(rest)?;
         let mut point = Vec3::new(0.0, 0.0, 0.0);
         for (i, name) in ["x", "y", "z"].into_iter().enumerate() {
             let Some(word) = words.next() else {
@@ -74,26 +150,19 @@ impl Reader {
             return Err("more than 4294967295 vertices".to_owned());
         }
         self.points.push(point);
+        self.count += 1;
         Ok(())
     }
 
-    fn polyline<'a>(
-        &mut self,
-        number: usize,
-        words: impl Iterator<Item = &'a str>,
-    ) -> Result<(), String> {
-        self.read_indices(number, "l", 2, words)?;
+    fn polyline(&mut self, number: u64, rest: &[u8]) -> Result<(), String> {
+        self.read_indices(number, "l", 2, words(rest)?)?;
         self.lines
             .extend(self.indices.windows(2).map(|w| [w[0], w[1]]));
         Ok(())
     }
 
-    fn face<'a>(
-        &mut self,
-        number: usize,
-        words: impl Iterator<Item = &'a str>,
-    ) -> Result<(), String> {
-        self.read_indices(number, "f", 3, words)?;
+    fn face(&mut self, number: u64, rest: &[u8]) -> Result<(), String> {
+        self.read_indices(number, "f", 3, words(rest)?)?;
         let next = self.indices.iter().cycle().skip(1);
         for (&a, &b) in self.indices.iter().zip(next) {
             self.faces.add(a, b);
@@ -103,7 +172,7 @@ impl Reader {
 
     fn read_indices<'a>(
         &mut self,
-        number: usize,
+        number: u64,
         keyword: &str,
         least: usize,
         words: impl Iterator<Item = &'a str>,
@@ -123,12 +192,12 @@ impl Reader {
     }
 
     /// The vertex of `v`, `v/vt`, `v//vn` or `v/vt/vn`, from 0.
-    fn index(&mut self, number: usize, word: &str) -> Result<u32, String> {
+    fn index(&mut self, number: u64, word: &str) -> Result<u32, String> {
         let vertex = word.split('/').next().unwrap_or("");
         let value: i64 = vertex
             .parse()
             .map_err(|_| format!("{} is no vertex index", quote(word)))?;
-        let count = self.points.len() as i64;
+        let count = i64::from(self.count);
         let index = match value {
             1.. => value - 1,
             0 => return Err("vertex index 0; indices start at 1".to_owned()),
@@ -145,7 +214,7 @@ impl Reader {
         }
     }
 
-    fn finish(self, choice: Option<EdgeChoice>) -> Result<Scene, (usize, String)> {
+    fn finish(self, choice: Option<EdgeChoice>) -> Result<Scene, LineError> {
         let count = self.points.len();
         if let Some((most, number)) = self.ahead.filter(|&(most, _)| most as usize >= count) {
             let asked = u64::from(most) + 1;
@@ -168,44 +237,42 @@ impl Reader {
             points: self.points,
             edges,
         };
-        let instance = Instance {
-            mesh: 0,
-            node: 0,
-            transform: None,
-        };
-        Ok(Scene::new(vec![mesh], vec![instance], kind))
+        Ok(Scene::new(vec![mesh], vec![Instance::PLAIN], kind))
     }
-}
-
-/// The file's lines with their numbers from 1, those that a backslash joins as
-/// one, under the first one's number.
-fn logical_lines(bytes: &[u8]) -> impl Iterator<Item = (usize, Cow<'_, [u8]>)> {
-    let mut physical = bytes.split(|&b| b == b'\n').enumerate();
-    std::iter::from_fn(move || {
-        let (i, line) = physical.next()?;
-        let mut line = Cow::Borrowed(line.trim_ascii_end());
-        while line.ends_with(b"\\") {
-            let joined = line.to_mut();
-            joined.pop();
-            joined.push(b' ');
-            match physical.next() {
-                Some((_, more)) => joined.extend_from_slice(more.trim_ascii_end()),
-                None => break,
-            }
-        }
-        Some((i + 1, line))
-    })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use frusta::Segment;
+
+    /// A file of that text, and its messages without the folder's name.
+    fn with_file<T>(
+        text: &str,
+        read: impl FnOnce(&Input) -> Result<T, Failure>,
+    ) -> Result<T, String> {
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("a.obj");
+        std::fs::write(&file, text).unwrap();
+        let prefix = format!("{}/", folder.path().display());
+        let result = read(&Input::new(&file, None).unwrap());
+        result.map_err(|e| e.to_string().replace(&prefix, ""))
+    }
 
     fn segments(text: &str, choice: Option<EdgeChoice>) -> Result<Vec<Segment<f64>>, String> {
-        let scene = read(Path::new("a.obj"), text.as_bytes(), choice).map_err(|e| e.to_string())?;
+        let scene = with_file(text, |input| read(input, choice))?;
         let mut out = Vec::new();
         scene.fill(0, scene.len(), &mut out);
+        Ok(out)
+    }
+
+    fn streamed(text: &str) -> Result<Vec<Segment<f64>>, String> {
+        let mut out = Vec::new();
+        with_file(text, |input| {
+            lines(input, &mut |segment| {
+                out.push(segment);
+                Ok(())
+            })
+        })?;
         Ok(out)
     }
 
@@ -222,6 +289,15 @@ mod tests {
             4
         );
         assert_eq!(segments(text, Some(EdgeChoice::All)).unwrap().len(), 7);
+        assert_eq!(streamed(text).unwrap(), lines);
+        assert_eq!(
+            streamed("v 0 0 0\nl 1 -2\n").unwrap_err(),
+            "a.obj: line 2: vertex -2 of 1 so far"
+        );
+        assert_eq!(
+            streamed("v 0 0 0\nl 1 3\nv 0 0 0\n").unwrap_err(),
+            "a.obj: line 2: vertex 3 of 2"
+        );
     }
 
     #[test]

@@ -56,6 +56,15 @@ pub(crate) struct Instance {
     pub(crate) transform: Option<Transform>,
 }
 
+impl Instance {
+    /// The only mesh, where it is.
+    pub(crate) const PLAIN: Self = Self {
+        mesh: 0,
+        node: 0,
+        transform: None,
+    };
+}
+
 /// A box around points.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Bounds {

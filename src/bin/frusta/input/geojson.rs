@@ -1,0 +1,285 @@
+//! GeoJSON: line strings and the rings of polygons, as a stream of features.
+//!
+//! A collection is read feature by feature, and a sequence (one JSON text a
+//! line) line by line, so that memory is that of the largest feature. Points are
+//! passed over. A position is longitude, latitude and, if there is one, height;
+//! they are taken as x, y, z, or as degrees and metres on an ellipsoid.
+//!
+//! The `geojson` crate reads a feature. Its own reader of collections takes the
+//! file's first `[` for the list of features, which a `bbox` before it breaks, so
+//! the collection around the features is read here.
+
+use super::lines::LineError;
+use super::opened::Input;
+use super::wgs84;
+use crate::failure::Failure;
+use frusta::{Segment, Vec3};
+use geojson::{Feature, GeoJson, Geometry, GeometryValue, Position};
+use serde::Deserializer as _;
+use serde::de::{DeserializeSeed, Error as _, IgnoredAny, MapAccess, SeqAccess, Visitor};
+use serde_json::{Map, Value};
+use std::fmt;
+use std::io::BufRead;
+
+/// The longest line of a sequence, in bytes: a feature may be large.
+const LONGEST: usize = 1 << 28;
+
+/// What takes the segments; its failure ends the reading.
+pub(crate) type Take<'a> = dyn FnMut(Segment<f64>) -> Result<(), Failure> + 'a;
+
+/// What positions are.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) enum Positions {
+    /// Coordinates as they are.
+    #[default]
+    AsGiven,
+    /// Degrees and metres on WGS 84; segments are between earth-centred points.
+    Ecef,
+}
+
+/// Reads a document.
+pub(crate) fn document(
+    input: &Input,
+    positions: Positions,
+    take: &mut Take<'_>,
+) -> Result<(), Failure> {
+    let mut walk = Walk::new(positions, take);
+    let mut parser = serde_json::Deserializer::from_reader(input.open()?);
+    let read = parser.deserialize_map(Document(&mut walk));
+    let read = read.and_then(|rest| parser.end().map(|()| rest));
+    let read = walk.settle(read, |e| input.failure(format_args!("not GeoJSON: {e}")));
+    if let Some(rest) = read? {
+        let alone = serde_json::from_value::<GeoJson>(Value::Object(rest));
+        let alone = alone.map_err(|e| input.failure(format_args!("not GeoJSON: {e}")))?;
+        let walked = walk.json(&alone);
+        walk.settle(walked, |why| input.failure(why))?;
+    }
+    Ok(())
+}
+
+/// Reads a sequence.
+pub(crate) fn sequence(
+    input: &Input,
+    positions: Positions,
+    take: &mut Take<'_>,
+) -> Result<(), Failure> {
+    let mut reader = input.open()?;
+    let mut walk = Walk::new(positions, take);
+    let mut number = 0;
+    let mut line = Vec::new();
+    loop {
+        line.clear();
+        number += 1;
+        let at = |why: String| input.failure_in_line((number, why));
+        let read = read_line(&mut reader, &mut line, number);
+        if !read.map_err(|e| input.failure_in_line(e))? {
+            return Ok(());
+        }
+        // RFC 8142 puts a record separator before each text.
+        let text = line.trim_ascii();
+        let text = text.strip_prefix(b"\x1e").unwrap_or(text);
+        if text.is_empty() {
+            continue;
+        }
+        let json = serde_json::from_slice::<GeoJson>(text);
+        let json = json.map_err(|e| at(format!("not GeoJSON: {e}")))?;
+        walk.feature = 0;
+        let walked = walk.json(&json);
+        walk.settle(walked, at)?;
+    }
+}
+
+fn read_line(
+    reader: &mut impl BufRead,
+    line: &mut Vec<u8>,
+    number: u64,
+) -> Result<bool, LineError> {
+    let mut limited = std::io::Read::take(reader, LONGEST as u64 + 1);
+    let count = limited.read_until(b'\n', line);
+    let count = count.map_err(|e| (number, e.to_string()))?;
+    if count > LONGEST {
+        return Err((number, format!("the line is longer than {LONGEST} bytes")));
+    }
+    Ok(count > 0)
+}
+
+/// Gives the segments of geometries.
+struct Walk<'a, 'b> {
+    positions: Positions,
+    take: &'a mut Take<'b>,
+    /// Features begun.
+    feature: u64,
+    /// What `take` answered, if it was an error.
+    stopped: Option<Failure>,
+}
+
+/// Why a walk ended early.
+type Reason = String;
+
+impl<'a, 'b> Walk<'a, 'b> {
+    fn new(positions: Positions, take: &'a mut Take<'b>) -> Self {
+        Self {
+            positions,
+            take,
+            feature: 0,
+            stopped: None,
+        }
+    }
+
+    /// A result's failure; the one from `take` before any other.
+    fn settle<T, E>(
+        &mut self,
+        read: Result<T, E>,
+        fail: impl FnOnce(E) -> Failure,
+    ) -> Result<T, Failure> {
+        read.map_err(|e| self.stopped.take().unwrap_or_else(|| fail(e)))
+    }
+
+    fn json(&mut self, json: &GeoJson) -> Result<(), Reason> {
+        match json {
+            GeoJson::Geometry(geometry) => self.geometry(geometry),
+            GeoJson::Feature(feature) => self.feature(feature),
+            GeoJson::FeatureCollection(list) => {
+                list.features.iter().try_for_each(|f| self.feature(f))
+            }
+        }
+    }
+
+    fn feature(&mut self, feature: &Feature) -> Result<(), Reason> {
+        let number = self.feature;
+        self.feature += 1;
+        match &feature.geometry {
+            Some(geometry) => self
+                .geometry(geometry)
+                .map_err(|why| format!("feature {number}: {why}")),
+            None => Ok(()),
+        }
+    }
+
+    fn geometry(&mut self, geometry: &Geometry) -> Result<(), Reason> {
+        match &geometry.value {
+            GeometryValue::Point { .. } | GeometryValue::MultiPoint { .. } => Ok(()),
+            GeometryValue::LineString { coordinates } => self.line(coordinates, false),
+            GeometryValue::MultiLineString { coordinates } => {
+                coordinates.iter().try_for_each(|l| self.line(l, false))
+            }
+            GeometryValue::Polygon { coordinates } => {
+                coordinates.iter().try_for_each(|r| self.line(r, true))
+            }
+            GeometryValue::MultiPolygon { coordinates } => coordinates
+                .iter()
+                .flatten()
+                .try_for_each(|r| self.line(r, true)),
+            GeometryValue::GeometryCollection { geometries } => {
+                geometries.iter().try_for_each(|g| self.geometry(g))
+            }
+        }
+    }
+
+    /// The segments between neighbours; a ring that its file leaves open is
+    /// closed.
+    fn line(&mut self, line: &[Position], is_ring: bool) -> Result<(), Reason> {
+        let mut points = line.iter();
+        let Some(first) = points.next() else {
+            return Ok(());
+        };
+        let first = self.point(first)?;
+        let mut last = first;
+        for position in points {
+            let next = self.point(position)?;
+            self.give(last, next)?;
+            last = next;
+        }
+        if is_ring && last != first {
+            self.give(last, first)?;
+        }
+        Ok(())
+    }
+
+    fn give(&mut self, start: Vec3<f64>, end: Vec3<f64>) -> Result<(), Reason> {
+        (self.take)(Segment { start, end }).map_err(|failure| {
+            let reason = failure.to_string();
+            self.stopped = Some(failure);
+            reason
+        })
+    }
+
+    fn point(&self, position: &Position) -> Result<Vec3<f64>, Reason> {
+        let (x, y, z) = match *position.as_slice() {
+            [x, y] => (x, y, 0.0),
+            [x, y, z, ..] => (x, y, z),
+            [..] => return Err("a position has fewer than two numbers".to_owned()),
+        };
+        match self.positions {
+            Positions::AsGiven => Ok(Vec3::new(x, y, z)),
+            Positions::Ecef => wgs84::ecef(x, y, z),
+        }
+    }
+}
+
+/// A document's outermost object: gives the features of a collection; anything
+/// else is handed back whole.
+struct Document<'w, 'a, 'b>(&'w mut Walk<'a, 'b>);
+
+impl<'de> Visitor<'de> for Document<'_, '_, '_> {
+    type Value = Option<Map<String, Value>>;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("a GeoJSON object")
+    }
+
+    fn visit_map<M: MapAccess<'de>>(self, mut map: M) -> Result<Self::Value, M::Error> {
+        let mut others = Map::new();
+        let mut found = false;
+        while let Some(key) = map.next_key::<String>()? {
+            if key == "features" {
+                found = true;
+                map.next_value_seed(Features(self.0))?;
+            } else if found && key != "type" {
+                map.next_value::<IgnoredAny>()?;
+            } else {
+                others.insert(key, map.next_value()?);
+            }
+        }
+        if !found {
+            return Ok(Some(others));
+        }
+        match others.get("type").and_then(Value::as_str) {
+            Some("FeatureCollection") => Ok(None),
+            _ => Err(M::Error::custom(
+                "an object with features must have the type FeatureCollection",
+            )),
+        }
+    }
+}
+
+/// A collection's list of features.
+struct Features<'w, 'a, 'b>(&'w mut Walk<'a, 'b>);
+
+impl<'de> DeserializeSeed<'de> for Features<'_, '_, '_> {
+    type Value = ();
+
+    fn deserialize<D: serde::Deserializer<'de>>(self, deserializer: D) -> Result<(), D::Error> {
+        deserializer.deserialize_seq(self)
+    }
+}
+
+impl<'de> Visitor<'de> for Features<'_, '_, '_> {
+    type Value = ();
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("a list of features")
+    }
+
+    fn visit_seq<S: SeqAccess<'de>>(self, mut list: S) -> Result<(), S::Error> {
+        loop {
+            let number = self.0.feature;
+            let next = list.next_element::<Feature>();
+            let next = next.map_err(|e| S::Error::custom(format_args!("feature {number}: {e}")))?;
+            let Some(feature) = next else {
+                return Ok(());
+            };
+            self.0.feature(&feature).map_err(S::Error::custom)?;
+        }
+    }
+}

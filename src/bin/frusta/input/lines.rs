@@ -1,0 +1,128 @@
+//! Lines of a text, with their numbers.
+//!
+//! A line has a greatest length: what has a longer one is no text, and reading
+//! on would fill the memory with it.
+
+use std::io::{BufRead, Read};
+
+/// The longest line that is read, in bytes.
+pub(super) const LONGEST: usize = 1 << 20;
+
+/// Why there is no next line: its number and the reason.
+pub(super) type LineError = (u64, String);
+
+/// A text's lines, one after the other.
+pub(super) struct Lines<R> {
+    reader: R,
+    line: Vec<u8>,
+    number: u64,
+}
+
+impl<R: BufRead> Lines<R> {
+    /// The lines of what is read.
+    pub(super) fn new(reader: R) -> Self {
+        Self {
+            reader,
+            line: Vec::new(),
+            number: 0,
+        }
+    }
+
+    /// The next line, without the white space at its end, and its number from
+    /// 1; `None` at the end.
+    pub(super) fn next(&mut self) -> Result<Option<(u64, &[u8])>, LineError> {
+        self.line.clear();
+        Ok(self
+            .append()?
+            .then(|| (self.number, self.line.trim_ascii_end())))
+    }
+
+    /// The same, where a backslash at a line's end joins the next; the number is
+    /// the first one's.
+    pub(super) fn next_joined(&mut self) -> Result<Option<(u64, &[u8])>, LineError> {
+        self.line.clear();
+        if !self.append()? {
+            return Ok(None);
+        }
+        let number = self.number;
+        while let Some(head) = self.line.trim_ascii_end().strip_suffix(b"\\") {
+            let length = head.len();
+            self.line.truncate(length);
+            self.line.push(b' ');
+            if !self.append()? {
+                break;
+            }
+        }
+        Ok(Some((number, self.line.trim_ascii_end())))
+    }
+
+    /// Appends a line to the buffer; `false` at the end.
+    fn append(&mut self) -> Result<bool, LineError> {
+        self.number += 1;
+        let room = (LONGEST - self.line.len().min(LONGEST)) as u64 + 1;
+        let count = (&mut self.reader)
+            .take(room)
+            .read_until(b'\n', &mut self.line)
+            .map_err(|e| (self.number, e.to_string()))?;
+        if self.line.len() > LONGEST && !self.line.ends_with(b"\n") {
+            let why = format!("the line is longer than {LONGEST} bytes; is this a text?");
+            return Err((self.number, why));
+        }
+        if self.number == 1 && matches!(self.line[..], [0xff, 0xfe, ..] | [0xfe, 0xff, ..]) {
+            return Err((1, "the text is UTF-16; expected UTF-8".to_owned()));
+        }
+        Ok(count > 0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn all(text: &[u8], joined: bool) -> Vec<(u64, String)> {
+        let mut lines = Lines::new(text);
+        let mut out = Vec::new();
+        loop {
+            let next = if joined {
+                lines.next_joined()
+            } else {
+                lines.next()
+            };
+            match next.unwrap() {
+                Some((number, line)) => {
+                    out.push((number, String::from_utf8(line.to_vec()).unwrap()));
+                }
+                None => return out,
+            }
+        }
+    }
+
+    #[test]
+    fn lines_have_numbers_and_backslashes_join_them() {
+        let text = b"a\r\n\nb \\\n c\nd\\";
+        let own = |list: &[(u64, &str)]| -> Vec<(u64, String)> {
+            list.iter().map(|&(n, l)| (n, l.to_owned())).collect()
+        };
+        assert_eq!(
+            all(text, false),
+            own(&[(1, "a"), (2, ""), (3, "b \\"), (4, " c"), (5, "d\\")])
+        );
+        assert_eq!(
+            all(text, true),
+            own(&[(1, "a"), (2, ""), (3, "b   c"), (5, "d")])
+        );
+    }
+
+    #[test]
+    fn an_endless_line_is_refused() {
+        let text = [b"a\n".to_vec(), vec![b' '; LONGEST + 1]].concat();
+        let mut lines = Lines::new(&text[..]);
+        assert_eq!(lines.next().unwrap(), Some((1, &b"a"[..])));
+        assert_eq!(lines.next().unwrap_err().0, 2);
+        let joined = b"x\\\n".repeat(LONGEST);
+        assert_eq!(
+            Lines::new(&joined[..]).next_joined().unwrap_err().0,
+            524_289
+        );
+    }
+}
