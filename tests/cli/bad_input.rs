@@ -60,10 +60,14 @@ fn csv() {
             "PK\u{3}\u{4}\u{1b}[31m zip\n",
             ["line 1", "neither six numbers nor a header"],
         ),
-        ("1,2,3,4,5,6\n1,2,3,\"4,5,6\n", ["line 2", "4 fields"]),
+        (
+            "1,2,3,4,5,6\n1,2,3,\"4,5,6\n",
+            ["line 2", "a quoted field goes on over the line's end"],
+        ),
     ] {
         refuse_file("a.csv", content, &parts);
     }
+    refuse_file("a.csv", "", &["the file is empty"]);
     refuse_file("a.csv", b"1,2,3,4,5,\xff\xfe\n", &["line 1", "z1"]);
     refuse_file("a.csv", vec![0; 100_000], &["line 1"]);
     let folder = Folder::new();
@@ -78,7 +82,7 @@ fn csv() {
 #[test]
 fn obj() {
     for (content, parts) in [
-        ("", ["no triangles", ""]),
+        ("", ["the file is empty", ""]),
         ("v 0 0 0\nv 1 1 1\n", ["no triangles", ""]),
         ("v 0 0\nl 1 1\n", ["line 1", "z is missing"]),
         ("v 0 0 0\nv 1 1 1\nl 1 3\n", ["line 3", "vertex 3 of 2"]),
@@ -213,13 +217,14 @@ fn gltf_documents() {
         changed("/nodes", json!(chain)),
         &["its transform is not finite"],
     );
-    refuse_file("a.gltf", "", &["not glTF"]);
+    refuse_file("a.gltf", "", &["the file is empty"]);
     refuse_file(
         "a.gltf",
         "{\"asset\": {\"version\": \"2.0\"}}",
         &["no triangles"],
     );
-    refuse_file("a.gltf", "[1, 2", &["not glTF", "line 1"]);
+    refuse_file("a.gltf", "[1, 2", &["not glTF", "begins neither"]);
+    refuse_file("a.gltf", "{\"a\": 2", &["not glTF", "line 1"]);
 }
 
 #[test]
@@ -405,8 +410,8 @@ fn files_and_flags() {
     );
     refuse(
         &folder,
-        &[&folder.name("a.stl")],
-        &["a.stl", "expected .glb, .gltf, .obj or .csv"],
+        &[&folder.name("a.step")],
+        &["a.step", "expected .glb, .gltf, .obj, .stl", "--from"],
     );
     refuse(
         &folder,
@@ -448,8 +453,11 @@ fn outputs_that_cannot_be_written() {
     let folder = Folder::new();
     std::fs::create_dir(folder.path("taken.csv")).unwrap();
     for (name, part) in [
-        ("out.png", "expected .csv, .obj or .svg"),
-        ("no/such/folder/out.csv", "cannot be written"),
+        ("out.gif", "expected .csv, .obj, .glb"),
+        (
+            "no/such/folder/out.csv",
+            "out.csv: cannot be written: its folder does not exist",
+        ),
         ("taken.csv", "not a plain file"),
     ] {
         let run = clip([fixture("six.csv"), "-o".to_owned(), folder.name(name)]);

@@ -59,6 +59,7 @@ pub(crate) fn cores() -> usize {
 }
 
 fn main() -> ExitCode {
+    whole_file::watch_for_interruption();
     let result = match Cli::parse().command {
         Command::Clip(args) => clip::run(&args).map(|()| ExitCode::SUCCESS),
         Command::Report(args) => report::run(&args),
@@ -70,7 +71,7 @@ fn main() -> ExitCode {
     match result {
         Ok(code) => code,
         Err(failure) => {
-            eprintln!("frusta: {failure}");
+            terminal::say(&format!("frusta: {failure}\n"));
             ExitCode::from(FAILED)
         }
     }

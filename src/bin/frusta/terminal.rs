@@ -14,6 +14,11 @@ pub(crate) fn print(text: &str) -> Result<(), Failure> {
     }
 }
 
+/// To the error stream; nobody is left to be told where that fails.
+pub(crate) fn say(text: &str) {
+    let _ = std::io::stderr().write_all(text.as_bytes());
+}
+
 /// A bar on the error stream; invisible where that is no terminal. Without a size
 /// it counts bytes.
 pub(crate) fn progress_bar(size: impl Into<Option<u64>>) -> ProgressBar {

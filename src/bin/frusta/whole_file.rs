@@ -1,61 +1,147 @@
-//! Files that are there whole or not at all.
+//! Files that are there whole or not at all, and the standard output.
 
 use crate::failure::Failure;
+use crate::terminal::say;
 use std::fs::Permissions;
-use std::io::{BufWriter, Write};
+use std::io::{self, BufWriter, ErrorKind, Write};
 use std::path::{Path, PathBuf};
+use std::process;
+use std::sync::{Mutex, PoisonError};
 use tempfile::{Builder, NamedTempFile};
 
+/// Bytes between two writes.
+const BUFFER: usize = 1 << 18;
+
+/// The exit code of an interrupted run, as shells have it.
+const INTERRUPTED: i32 = 130;
+
+/// The temporary names of the files that are being written.
+static UNFINISHED: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
+
 /// A file under a temporary name beside its own until it is finished; dropped
-/// before that, it leaves nothing and an older file of its name untouched.
+/// before that, or when the run is interrupted, it leaves nothing and an older
+/// file of its name untouched. For `-` the standard output, which is a stream.
 pub(crate) struct WholeFile {
     path: PathBuf,
-    out: BufWriter<NamedTempFile>,
+    out: Option<BufWriter<Target>>,
+}
+
+enum Target {
+    File(NamedTempFile),
+    Stream(io::Stdout),
+}
+
+impl Write for Target {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        match self {
+            Self::File(file) => file.as_file_mut().write(bytes),
+            Self::Stream(stream) => stream.write(bytes),
+        }
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        match self {
+            Self::File(file) => file.as_file_mut().flush(),
+            Self::Stream(stream) => stream.flush(),
+        }
+    }
+}
+
+/// Whether a name stands for the standard output.
+pub(crate) fn is_stream(path: &Path) -> bool {
+    path == Path::new("-")
 }
 
 impl WholeFile {
     /// Begins the file.
     pub(crate) fn create(path: &Path) -> Result<Self, Failure> {
-        // A rename would put a plain file in a device's or directory's place.
-        if path.metadata().is_ok_and(|m| !m.is_file()) {
-            return Err(Failure::in_file(
-                path,
-                "not a plain file; cannot be replaced",
-            ));
-        }
-        let folder = match path.parent() {
-            Some(folder) if !folder.as_os_str().is_empty() => folder,
-            _ => Path::new("."),
+        let (path, target) = if is_stream(path) {
+            let name = Path::new("standard output");
+            (name, Target::Stream(io::stdout()))
+        } else {
+            (path, Target::File(temporary(path)?))
         };
-        let file = builder()
-            .tempfile_in(folder)
-            .map_err(|e| Failure::in_file(path, format_args!("cannot be written: {e}")))?;
         Ok(Self {
             path: path.to_owned(),
-            out: BufWriter::with_capacity(1 << 18, file),
+            out: Some(BufWriter::with_capacity(BUFFER, target)),
         })
     }
 
     /// Appends bytes.
     pub(crate) fn write(&mut self, bytes: &[u8]) -> Result<(), Failure> {
-        self.out.write_all(bytes).map_err(|e| self.failure(e))
+        match &mut self.out {
+            Some(out) => out.write_all(bytes).map_err(|e| failure(&self.path, &e)),
+            None => Ok(()),
+        }
     }
 
     /// Gives the file its name.
     pub(crate) fn finish(mut self) -> Result<(), Failure> {
-        self.out.flush().map_err(|e| self.failure(e))?;
-        let Self { path, out } = self;
-        let file = out.into_inner().map_err(|e| failure(&path, e))?;
-        file.persist(&path).map_err(|e| failure(&path, e.error))?;
-        Ok(())
-    }
-
-    fn failure(&self, why: impl std::fmt::Display) -> Failure {
-        failure(&self.path, why)
+        let Some(mut out) = self.out.take() else {
+            return Ok(());
+        };
+        let fail = |e: &io::Error| failure(&self.path, e);
+        out.flush().map_err(|e| fail(&e))?;
+        match out.into_inner() {
+            Ok(Target::File(file)) => {
+                let mut unfinished = UNFINISHED.lock().unwrap_or_else(PoisonError::into_inner);
+                let temporary = file.path().to_owned();
+                file.persist(&self.path).map_err(|e| fail(&e.error))?;
+                unfinished.retain(|path| *path != temporary);
+                Ok(())
+            }
+            Ok(Target::Stream(_)) => Ok(()),
+            Err(e) => Err(fail(e.error())),
+        }
     }
 }
 
-fn failure(path: &Path, why: impl std::fmt::Display) -> Failure {
+/// Makes an interruption (SIGINT, SIGTERM, SIGHUP) remove what is unfinished. A
+/// killed process cannot: it leaves a hidden file `.frusta-...` beside.
+pub(crate) fn watch_for_interruption() {
+    let set = ctrlc::set_handler(|| {
+        // Held to the end: no file gets its name after this.
+        let unfinished = UNFINISHED.lock().unwrap_or_else(PoisonError::into_inner);
+        for path in unfinished.iter() {
+            let _ = std::fs::remove_file(path);
+        }
+        say("frusta: interrupted; no unfinished file is left\n");
+        process::exit(INTERRUPTED);
+    });
+    // Without a handler an interruption ends the process as usual.
+    drop(set);
+}
+
+fn temporary(path: &Path) -> Result<NamedTempFile, Failure> {
+    // A rename would put a plain file in a device's or directory's place.
+    if path.metadata().is_ok_and(|m| !m.is_file()) {
+        let why = "not a plain file; cannot be replaced";
+        return Err(Failure::in_file(path, why));
+    }
+    let folder = match path.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder,
+        _ => Path::new("."),
+    };
+    // Held while the file comes to be: an interruption must know its name.
+    let mut unfinished = UNFINISHED.lock().unwrap_or_else(PoisonError::into_inner);
+    let file = builder().tempfile_in(folder).map_err(|e| {
+        // The error's own text names the temporary file.
+        let why = match e.kind() {
+            ErrorKind::NotFound => "its folder does not exist".to_owned(),
+            ErrorKind::NotADirectory => "its folder is a file".to_owned(),
+            kind => kind.to_string(),
+        };
+        Failure::in_file(path, format_args!("cannot be written: {why}"))
+    })?;
+    unfinished.push(file.path().to_owned());
+    Ok(file)
+}
+
+fn failure(path: &Path, why: &io::Error) -> Failure {
+    if why.kind() == ErrorKind::BrokenPipe {
+        // Who reads the standard output has seen enough.
+        process::exit(0);
+    }
     Failure::in_file(path, format_args!("cannot be written: {why}"))
 }
 

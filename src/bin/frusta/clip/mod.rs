@@ -17,8 +17,9 @@ use crate::input::{self, EdgeChoice, Input};
 use crate::number::Scalar;
 use crate::output::{self, Kind, Writer};
 use crate::stats::{Report, Times};
-use crate::terminal::print;
+use crate::terminal::{print, say};
 use crate::view::ViewArgs;
+use crate::whole_file::is_stream;
 use clap::{Args, ValueEnum};
 use run::Run;
 use source::Source;
@@ -40,6 +41,9 @@ pub(crate) struct ClipArgs {
     /// Write the result: .csv (a row a segment), .obj (lines), .svg (what the camera sees)
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
+    /// The output's format [default: by its name]
+    #[arg(long, value_name = "FORMAT")]
+    to: Option<Kind>,
     /// Statistics as JSON on the standard output
     #[arg(long)]
     json: bool,
@@ -92,7 +96,7 @@ fn run_as<T: Scalar>(args: &ClipArgs) -> Result<(), Failure> {
     }
     let input = Input::new(&args.file, args.from)?;
     let (name, format) = (input.name().display().to_string(), input.format.name());
-    let kind = Kind::of(args.output.as_deref())?;
+    let kind = Kind::of(args.output.as_deref(), args.to)?;
     let positions = if args.ecef {
         Positions::Ecef
     } else {
@@ -138,11 +142,16 @@ fn run_as<T: Scalar>(args: &ClipArgs) -> Result<(), Failure> {
         staged: run.engine.counts(),
         times,
     };
-    print(&if args.json {
+    let text = if args.json {
         format!("{:#}\n", report.to_json())
     } else {
         report.to_table()
-    })
+    };
+    if args.output.as_deref().is_some_and(is_stream) {
+        say(&text);
+        return Ok(());
+    }
+    print(&text)
 }
 
 /// The end of `-h`.

@@ -12,7 +12,7 @@ use super::lines::{LONGEST, LineError};
 use super::opened::Input;
 use crate::failure::{Failure, quote};
 use crate::number::{self, Scalar};
-use csv::{ByteRecord, ReaderBuilder, Trim};
+use csv::{ByteRecord, ReaderBuilder};
 use frusta::{Segment, Vec3};
 use memchr::{memchr, memchr_iter, memrchr};
 use std::io::Read;
@@ -143,7 +143,11 @@ fn head(text: &[u8]) -> Result<Option<(Layout, usize)>, LineError> {
 
 /// The layout that the first row tells; a row with no number in it is a header.
 fn layout(record: &ByteRecord) -> Result<(Layout, bool), String> {
-    let fields = || record.iter().map(String::from_utf8_lossy);
+    let fields = || {
+        record
+            .iter()
+            .map(|f| String::from_utf8_lossy(f.trim_ascii()))
+    };
     let width = record.len();
     if fields().any(|field| number::parse::<f64>(&field).is_ok()) {
         let columns = [0, 1, 2, 3, 4, 5];
@@ -168,7 +172,6 @@ fn reader(text: &[u8]) -> csv::Reader<&[u8]> {
     ReaderBuilder::new()
         .has_headers(false)
         .flexible(true)
-        .trim(Trim::All)
         .comment(Some(b'#'))
         .buffer_capacity(1 << 14)
         .from_reader(text)
@@ -230,7 +233,7 @@ impl Layout {
         }
         let mut values = [T::ZERO; 6];
         for ((value, column), name) in values.iter_mut().zip(self.columns).zip(COLUMNS) {
-            let field = record.get(column).unwrap_or_default();
+            let field = record.get(column).unwrap_or_default().trim_ascii();
             let text = std::str::from_utf8(field).map_err(|_| {
                 format!(
                     "{name}: {} is no number",

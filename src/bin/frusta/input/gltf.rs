@@ -45,7 +45,9 @@ pub(super) fn read(input: &Input, choice: Option<EdgeChoice>) -> Result<Scene, F
     bytes.truncate(have);
     // What cannot be glTF is not read: it could be of any length.
     let limit = match bytes.get(8..12).and_then(|b| b.first_chunk()) {
-        Some(&length) if bytes.starts_with(b"glTF") => u64::from(u32::from_le_bytes(length)),
+        Some(&length) if bytes.starts_with(b"glTF") => {
+            u64::from(u32::from_le_bytes(length)).max(20)
+        }
         _ if bytes.starts_with(b"glTF") || bytes.trim_ascii_start().starts_with(b"{") => u64::MAX,
         _ if have == 0 => return Err(input.failure("the file is empty")),
         _ => {

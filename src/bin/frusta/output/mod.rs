@@ -4,13 +4,16 @@
 //! the chunks together in order ([`Writer::accept`]).
 
 pub(crate) mod csv;
+mod glb;
 mod obj;
 mod svg;
 mod thin;
 
 use crate::failure::Failure;
 use crate::number::Scalar;
-use crate::whole_file::WholeFile;
+use crate::picture::Theme;
+use crate::whole_file::{WholeFile, is_stream};
+use clap::ValueEnum;
 use frusta::{Frustum, SegmentClip};
 use std::path::Path;
 
@@ -23,37 +26,53 @@ pub(crate) struct Formatted {
     points: Vec<u32>,
     /// OBJ: how many parts there are.
     parts: u32,
+    /// GLB: points by class, or a coordinate that is too large.
+    points_by_class: Option<Result<[glb::Points; 5], f64>>,
     /// SVG: what to draw.
     strokes: Vec<thin::Stroke>,
 }
 
-/// Kinds of output files, told by the name's extension.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// Kinds of output files.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Kind {
     /// No file.
+    #[value(skip)]
     None,
-    /// `.csv`
+    /// A row a segment
     Csv,
-    /// `.obj`
+    /// Lines
     Obj,
-    /// `.svg`
+    /// Lines, glTF binary
+    Glb,
+    /// A picture
     Svg,
 }
 
 impl Kind {
-    /// The kind that a file's name stands for.
-    pub(crate) fn of(file: Option<&Path>) -> Result<Self, Failure> {
+    /// The asked kind, or that which a file's name stands for.
+    pub(crate) fn of(file: Option<&Path>, asked: Option<Self>) -> Result<Self, Failure> {
         let Some(file) = file else {
-            return Ok(Self::None);
+            return match asked {
+                Some(_) => Err(Failure::new("--to is for an output; give it with -o")),
+                None => Ok(Self::None),
+            };
         };
+        if let Some(kind) = asked {
+            return Ok(kind);
+        }
+        if is_stream(file) {
+            let why = "give its format with --to";
+            return Err(Failure::in_file(Path::new("standard output"), why));
+        }
         let extension = file.extension().and_then(|e| e.to_str()).unwrap_or("");
         match extension.to_ascii_lowercase().as_str() {
             "csv" => Ok(Self::Csv),
             "obj" => Ok(Self::Obj),
+            "glb" => Ok(Self::Glb),
             "svg" => Ok(Self::Svg),
             _ => Err(Failure::in_file(
                 file,
-                "unknown kind of output; expected .csv, .obj or .svg",
+                "unknown kind of output; expected .csv, .obj, .glb or .svg",
             )),
         }
     }
@@ -68,6 +87,8 @@ pub(crate) enum Format {
     Csv,
     /// A line element a part.
     Obj,
+    /// A line a part, relative to a centre.
+    Glb(glb::Centre),
     /// What the camera sees.
     Svg(svg::Projector),
 }
@@ -79,6 +100,7 @@ impl Format {
             Kind::None => Self::None,
             Kind::Csv => Self::Csv,
             Kind::Obj => Self::Obj,
+            Kind::Glb => Self::Glb(glb::Centre::of(frustum)),
             Kind::Svg => Self::Svg(svg::Projector::new(frustum)),
         }
     }
@@ -90,6 +112,7 @@ impl Format {
             Self::None => {}
             Self::Csv => csv::format(first, clips, &mut out.text),
             Self::Obj => obj::format(clips, &mut out),
+            Self::Glb(centre) => out.points_by_class = Some(glb::format(centre, clips)),
             Self::Svg(projector) => svg::format(projector, clips, &mut out.strokes),
         }
         out
@@ -104,6 +127,8 @@ pub(crate) enum Writer {
     Csv(WholeFile),
     /// Vertices, written as they come; then the elements.
     Obj(WholeFile, obj::Elements),
+    /// Points, kept in files of their own until the end.
+    Glb(WholeFile, glb::Model),
     /// Strokes, kept until the end.
     Svg(WholeFile, svg::Picture),
 }
@@ -125,6 +150,7 @@ impl Writer {
                 out.write(obj::HEADER.as_bytes())?;
                 Self::Obj(out, obj::Elements::default())
             }
+            Format::Glb(centre) => Self::Glb(out, glb::Model::new(*centre)?),
             Format::Svg(projector) => Self::Svg(out, svg::Picture::new(projector)),
         })
     }
@@ -138,6 +164,13 @@ impl Writer {
                 elements.add(chunk.parts, &chunk.points);
                 out.write(&chunk.text)
             }
+            Self::Glb(_, model) => match &chunk.points_by_class {
+                Some(Ok(points)) => model.add(points),
+                Some(Err(value)) => Err(Failure::new(format_args!(
+                    "GLB is in single precision, which has no room for the coordinate {value:e}"
+                ))),
+                None => Ok(()),
+            },
             Self::Svg(_, picture) => {
                 picture.add(&chunk.strokes);
                 Ok(())
@@ -153,6 +186,10 @@ impl Writer {
             Self::Csv(out) => out.finish(),
             Self::Obj(mut out, elements) => {
                 elements.write(|text| out.write(text))?;
+                out.finish()
+            }
+            Self::Glb(mut out, model) => {
+                model.write(&mut out, title, Theme::Light.palette())?;
                 out.finish()
             }
             Self::Svg(mut out, picture) => {
