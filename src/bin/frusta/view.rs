@@ -3,7 +3,7 @@
 
 use crate::failure::Failure;
 use crate::frustum_file;
-use crate::input::Bounds;
+use crate::input::{Bounds, wgs84};
 use crate::number::{self, short};
 use clap::Args;
 use frusta::{Camera, Deviation, Frustum, FrustumError, Projection, Vec3};
@@ -23,6 +23,10 @@ pub(crate) struct ViewArgs {
     /// What points upwards in the picture [default: 0,1,0]
     #[arg(long, value_name = "X,Y,Z", value_parser = point, allow_hyphen_values = true)]
     up: Option<Vec3<f64>>,
+    /// Look down on the earth from above a place, to the horizon and no farther: sets eye, target, up, and the defaults of fovy, near and far. With --ecef
+    #[arg(long, value_name = "LON,LAT,HEIGHT", value_parser = point, allow_hyphen_values = true)]
+    #[arg(requires = "ecef", conflicts_with_all = ["eye", "target", "up", "ortho"])]
+    over: Option<Vec3<f64>>,
     /// Full vertical angle of view [default: 30]
     #[arg(long, value_name = "DEGREES", value_parser = finite, conflicts_with = "ortho")]
     fovy: Option<f64>,
@@ -40,7 +44,7 @@ pub(crate) struct ViewArgs {
     far: Option<f64>,
     /// Read the frustum from a JSON file (see below)
     #[arg(long, value_name = "FILE", conflicts_with_all = [
-        "eye", "target", "up", "fovy", "ortho", "aspect", "near", "far"
+        "eye", "target", "up", "over", "fovy", "ortho", "aspect", "near", "far"
     ])]
     frustum: Option<PathBuf>,
 }
@@ -74,9 +78,10 @@ impl ViewArgs {
             });
         }
         let up = self.up.unwrap_or(Vec3::new(0.0, 1.0, 0.0));
-        let (mut parameters, chosen) = match (self.eye, self.target) {
-            (Some(eye), Some(target)) => (Parameters::between(eye, target, up), false),
-            (eye, target) => (Parameters::around(&bounds()?, eye, target, up)?, true),
+        let (mut parameters, chosen) = match (self.over, self.eye, self.target) {
+            (Some(place), ..) => (Parameters::over(place)?, false),
+            (None, Some(eye), Some(target)) => (Parameters::between(eye, target, up), false),
+            (None, eye, target) => (Parameters::around(&bounds()?, eye, target, up)?, true),
         };
         if let Some(fovy) = self.fovy {
             parameters.lens = Lens::Fovy(fovy);
@@ -153,6 +158,37 @@ impl Parameters {
             near: distance / 100.0,
             far: distance * 100.0,
         }
+    }
+
+    /// A camera above a place of the earth, with north up in the picture. Its far
+    /// face lies in the plane of the horizon, and its sides take all of that in.
+    fn over(place: Vec3<f64>) -> Result<Self, Failure> {
+        let fail = |why: &str| Failure::new(format_args!("--over: {why}"));
+        let eye = wgs84::ecef(place.x, place.y, place.z).map_err(|why| fail(&why))?;
+        let (way, distance) = wgs84::horizon(eye)
+            .filter(|_| place.z > 0.0)
+            .ok_or_else(|| fail("the height must be above 0, and finite on the earth's scale"))?;
+        let foot = eye + way * distance;
+        // Of the horizon's circle; nobody sees that the earth is no sphere.
+        let radius = (wgs84::RADIUS * wgs84::RADIUS - foot.dot(foot))
+            .max(0.0)
+            .sqrt();
+        let is_pole = way.x.abs().max(way.y.abs()) < 1e-6;
+        let degrees = 2.0 * libm::atan2(radius, distance).to_degrees();
+        Ok(Self {
+            lens: Lens::Fovy(rounded((degrees * 1.02).clamp(1.0, 170.0), 1e3)),
+            near: distance / 100.0,
+            far: distance,
+            ..Self::between(
+                eye,
+                foot,
+                if is_pole {
+                    Vec3::new(1.0, 0.0, 0.0)
+                } else {
+                    Vec3::new(0.0, 0.0, 1.0)
+                },
+            )
+        })
     }
 
     /// A camera that sees the middle of the scene: from the front, the right

@@ -6,7 +6,8 @@
 use frusta::Vec3;
 
 /// The equatorial radius in metres.
-const A: f64 = 6_378_137.0;
+pub(crate) const RADIUS: f64 = 6_378_137.0;
+const A: f64 = RADIUS;
 /// The flattening.
 const F: f64 = 1.0 / 298.257_223_563;
 /// The polar radius in metres.
