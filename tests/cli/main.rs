@@ -3,11 +3,14 @@
 
 mod bad_input;
 mod formats;
+mod geo;
+mod meshes;
 mod output;
 mod report;
 mod samples;
 mod shell;
 mod statistics;
+mod streams;
 mod view;
 
 use serde_json::Value;

@@ -65,7 +65,7 @@ pub(crate) struct ClipArgs {
     /// The type of the segments' coordinates
     #[arg(long, default_value = "f64")]
     precision: Precision,
-    /// Threads that clip [default: one a core]; the output does not depend on it
+    /// Threads that read, clip and format [default: one a core]; the output does not depend on it
     #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u16).range(1..=256))]
     threads: Option<u16>,
     #[command(flatten)]
@@ -102,13 +102,14 @@ fn run_as<T: Scalar>(args: &ClipArgs) -> Result<(), Failure> {
     } else {
         Positions::AsGiven
     };
-    let source = Source::open(input, args.edges, positions)?;
+    let threads = args.threads.map_or_else(crate::cores, usize::from);
+    let source = threads_of(threads)?.install(|| Source::open(input, args.edges, positions))?;
     let view = args.view.view(|| source.bounds())?;
     let accuracy = args.accuracy.unwrap_or(Accuracy::Fast);
     let run = Run {
         engine: Engine::<T>::new(args.algorithm, args.arithmetic, accuracy),
         output: output::Format::new(kind, &view.frustum),
-        threads: args.threads.map_or_else(crate::cores, usize::from),
+        threads,
         source: &source,
         frustum: &view.frustum,
     };
@@ -152,6 +153,12 @@ fn run_as<T: Scalar>(args: &ClipArgs) -> Result<(), Failure> {
         return Ok(());
     }
     print(&text)
+}
+
+/// The threads that read a mesh.
+fn threads_of(count: usize) -> Result<rayon::ThreadPool, Failure> {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(count).build();
+    pool.map_err(|e| Failure::new(format_args!("threads: {e}")))
 }
 
 /// The end of `-h`.

@@ -1,6 +1,7 @@
 //! The edges of faces, each once.
 
 use frusta::Vec3;
+use rayon::slice::ParallelSliceMut;
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
 
@@ -61,7 +62,7 @@ impl UniqueEdges {
             edge.sort_unstable();
         }
         self.0.retain(|[a, b]| a != b);
-        self.0.sort_unstable();
+        self.0.par_sort_unstable();
         self.0.dedup();
         self.0.shrink_to_fit();
         self.0
@@ -72,7 +73,7 @@ impl UniqueEdges {
 fn first_at_same_place(points: &[Vec3<f64>]) -> Vec<u32> {
     let key = |i: u32| key(points[i as usize]);
     let mut order: Vec<u32> = (0..points.len() as u32).collect();
-    order.sort_unstable_by_key(|&i| (key(i), i));
+    order.par_sort_unstable_by_key(|&i| (key(i), i));
     let mut same: Vec<u32> = (0..points.len() as u32).collect();
     for pair in order.windows(2) {
         if key(pair[0]) == key(pair[1]) {

@@ -17,6 +17,7 @@ use crate::failure::Failure;
 use gltf::json;
 use gltf::json::validation::Checked;
 use gltf::mesh::Mode;
+use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
 use std::collections::HashMap;
 use std::io::Read;
 use std::path::Path;
@@ -69,31 +70,25 @@ fn read_bytes(file: &Path, bytes: &[u8], choice: Option<EdgeChoice>) -> Result<S
     let placed = place_nodes(&root).map_err(|why| Failure::in_file(file, why))?;
     let kind = choice.unwrap_or_else(|| default_kind(&root, &placed));
 
-    let mut meshes = Vec::new();
+    // Each mesh once, in the order in which the tree comes to it.
+    let mut wanted = Vec::new();
     let mut numbers = HashMap::new();
-    let mut instances = Vec::with_capacity(placed.len());
-    for Placed {
-        node,
-        mesh,
-        transform,
-    } in placed
-    {
-        let number = match numbers.get(&mesh) {
-            Some(&number) => number,
-            None => {
-                let read = read_mesh(&data, &root, mesh, kind);
-                meshes
-                    .push(read.map_err(|why| Failure::at(file, format_args!("mesh {mesh}"), why))?);
-                numbers.insert(mesh, meshes.len() - 1);
-                meshes.len() - 1
-            }
-        };
-        instances.push(Instance {
-            mesh: number,
-            node,
-            transform: (transform != Transform::IDENTITY).then_some(transform),
-        });
-    }
+    let instances = placed.into_iter().map(|placed| Instance {
+        mesh: *numbers.entry(placed.mesh).or_insert_with(|| {
+            wanted.push(placed.mesh);
+            wanted.len() - 1
+        }),
+        node: placed.node,
+        transform: (placed.transform != Transform::IDENTITY).then_some(placed.transform),
+    });
+    let instances = instances.collect();
+    let read = |&mesh: &usize| {
+        let read = read_mesh(&data, &root, mesh, kind);
+        read.map_err(|why| Failure::at(file, format_args!("mesh {mesh}"), why))
+    };
+    // Collected before they are looked at: the first failure is the one told.
+    let meshes: Vec<Result<Mesh, Failure>> = wanted.par_iter().map(read).collect();
+    let meshes = meshes.into_iter().collect::<Result<_, _>>()?;
     Ok(Scene::new(meshes, instances, kind))
 }
 
