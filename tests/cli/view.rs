@@ -160,14 +160,15 @@ fn a_camera_is_chosen_for_scenes_of_any_size() {
         "1e-200,0,0,0,1e-200,0\n",
         "1e150,0,0,0,-1e150,3\n",
         "1e15,0,0,1000000000000000.5,0,0.001\n",
+        "1e300,0,0,-1e300,0,0\n",
     ] {
         let file = folder.write("a.csv", content);
         let found = clip([file.as_str(), "--json"]);
         let message = text(&found.stderr);
         assert!(found.status.success(), "{content}: {message}");
     }
-    // Too large for the squares of its extent: an error that says what to do.
-    let file = folder.write("a.csv", "1e300,0,0,-1e300,0,0\n");
+    // Its extent is beyond the range of doubles: an error that says what to do.
+    let file = folder.write("a.csv", "1.7e308,0,0,-1.7e308,0,0\n");
     let found = clip([file.as_str()]);
     assert_eq!(found.status.code(), Some(2));
     assert!(text(&found.stderr).contains("give --eye and --target"));

@@ -278,8 +278,10 @@ fn viewpoint(up: Vec3<f64>) -> Vec3<f64> {
     unit(front * 0.8 + right * 0.5 + up * 0.45)
 }
 
+/// Without overflow or underflow on the way.
 fn length(v: Vec3<f64>) -> f64 {
-    v.dot(v).sqrt()
+    let [x, y, z] = v.to_array();
+    libm::hypot(libm::hypot(x, y), z)
 }
 
 /// To a thousandth of `scale` or a little finer, in decimals.
