@@ -291,7 +291,20 @@ fn truncated_and_lying_binaries() {
         with(12, u32::MAX),
         &["byte 12", "the JSON chunk says"],
     );
-    refuse_file("a.glb", with(12, 8), &["byte 32", "expected a BIN chunk"]);
+    refuse_file(
+        "a.glb",
+        with(12, 8),
+        &["the JSON chunk's EOF while parsing"],
+    );
+    let json = u32::from_le_bytes(whole[12..16].try_into().unwrap()) as usize;
+    let kind = 20 + json + 4;
+    let place = format!("byte {kind}");
+    refuse_file("a.glb", with(kind, 0), &[&place, "expected a BIN chunk"]);
+    refuse_file(
+        "a.glb",
+        with(kind - 4, u32::MAX),
+        &["the BIN chunk says 4294967295 bytes"],
+    );
     refuse_file("a.glb", with(16, 0), &["byte 16", "expected a JSON chunk"]);
 }
 
@@ -422,7 +435,7 @@ fn files_and_flags() {
     refuse(
         &folder,
         &[&lines, "--eye", "1,2,3", "--target", "1,2,3"],
-        &["--eye 1,2,3 --target 1,2,3"],
+        &["--eye and --target are the same point"],
     );
     refuse(
         &folder,
@@ -458,7 +471,7 @@ fn outputs_that_cannot_be_written() {
             "no/such/folder/out.csv",
             "out.csv: cannot be written: its folder does not exist",
         ),
-        ("taken.csv", "not a plain file"),
+        ("taken.csv", "it is a folder"),
     ] {
         let run = clip([fixture("six.csv"), "-o".to_owned(), folder.name(name)]);
         let message = text(&run.stderr);

@@ -2,6 +2,7 @@
 #![cfg(feature = "cli")]
 
 mod bad_input;
+mod bad_table;
 mod formats;
 mod geo;
 mod meshes;

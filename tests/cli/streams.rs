@@ -186,6 +186,8 @@ fn a_full_disk_leaves_no_file() {
         assert!(message.contains("File too large"), "{message}");
         assert_eq!(folder.files(), ["a.csv"]);
     }
-    let run = clip([rows.as_str(), "-o", "/dev/full"]);
-    assert_eq!(run.status.code(), Some(2));
+    for (device, code) in [("/dev/full", 2), ("/dev/null", 0)] {
+        let args = [rows.as_str(), "-o", device, "--to", "csv"];
+        assert_eq!(clip(args).status.code(), Some(code), "{device}");
+    }
 }

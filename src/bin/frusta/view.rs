@@ -80,6 +80,9 @@ impl ViewArgs {
         let up = self.up.unwrap_or(Vec3::new(0.0, 1.0, 0.0));
         let (mut parameters, chosen) = match (self.over, self.eye, self.target) {
             (Some(place), ..) => (Parameters::over(place)?, false),
+            (None, Some(eye), Some(target)) if eye == target => {
+                return Err(Failure::new("--eye and --target are the same point"));
+            }
             (None, Some(eye), Some(target)) => (Parameters::between(eye, target, up), false),
             (None, eye, target) => (Parameters::around(&bounds()?, eye, target, up)?, true),
         };

@@ -2,7 +2,7 @@
 
 use crate::failure::Failure;
 use crate::terminal::say;
-use std::fs::Permissions;
+use std::fs::{File, Permissions};
 use std::io::{self, BufWriter, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 use std::process;
@@ -20,7 +20,8 @@ static UNFINISHED: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
 
 /// A file under a temporary name beside its own until it is finished; dropped
 /// before that, or when the run is interrupted, it leaves nothing and an older
-/// file of its name untouched. For `-` the standard output, which is a stream.
+/// file of its name untouched. The standard output (`-`), devices and named pipes
+/// are written as they are: they have nothing to be left.
 pub(crate) struct WholeFile {
     path: PathBuf,
     out: Option<BufWriter<Target>>,
@@ -28,7 +29,7 @@ pub(crate) struct WholeFile {
 
 enum Target {
     File(NamedTempFile),
-    Stream(io::Stdout),
+    Stream(Box<dyn Write>),
 }
 
 impl Write for Target {
@@ -57,7 +58,12 @@ impl WholeFile {
     pub(crate) fn create(path: &Path) -> Result<Self, Failure> {
         let (path, target) = if is_stream(path) {
             let name = Path::new("standard output");
-            (name, Target::Stream(io::stdout()))
+            (name, Target::Stream(Box::new(io::stdout())))
+        } else if path.metadata().is_ok_and(|m| !m.is_file() && !m.is_dir()) {
+            // A rename would put a plain file in a device's place.
+            let device = File::options().write(true).open(path);
+            let device = device.map_err(|e| failure(path, &e))?;
+            (path, Target::Stream(Box::new(device)))
         } else {
             (path, Target::File(temporary(path)?))
         };
@@ -113,10 +119,8 @@ pub(crate) fn watch_for_interruption() {
 }
 
 fn temporary(path: &Path) -> Result<NamedTempFile, Failure> {
-    // A rename would put a plain file in a device's or directory's place.
-    if path.metadata().is_ok_and(|m| !m.is_file()) {
-        let why = "not a plain file; cannot be replaced";
-        return Err(Failure::in_file(path, why));
+    if path.is_dir() {
+        return Err(Failure::in_file(path, "cannot be written: it is a folder"));
     }
     let folder = match path.parent() {
         Some(folder) if !folder.as_os_str().is_empty() => folder,

@@ -1,7 +1,7 @@
 //! GeoJSON: line strings and the rings of polygons, as a stream of features.
 //!
-//! A collection is read feature by feature, and a sequence (one JSON text a
-//! line) line by line, so that memory is that of the largest feature. Points are
+//! A collection is read feature by feature, and a sequence text by text, so
+//! that memory is that of the largest feature. Points are
 //! passed over. A position is longitude, latitude and, if there is one, height;
 //! they are taken as x, y, z, or as degrees and metres on an ellipsoid.
 //!
@@ -9,7 +9,6 @@
 //! file's first `[` for the list of features, which a `bbox` before it breaks, so
 //! the collection around the features is read here.
 
-use super::lines::LineError;
 use super::opened::Input;
 use super::wgs84;
 use crate::failure::Failure;
@@ -19,10 +18,7 @@ use serde::Deserializer as _;
 use serde::de::{DeserializeSeed, Error as _, IgnoredAny, MapAccess, SeqAccess, Visitor};
 use serde_json::{Map, Value};
 use std::fmt;
-use std::io::BufRead;
-
-/// The longest line of a sequence, in bytes: a feature may be large.
-const LONGEST: usize = 1 << 28;
+use std::io::Read;
 
 /// What takes the segments; its failure ends the reading.
 pub(crate) type Take<'a> = dyn FnMut(Segment<f64>) -> Result<(), Failure> + 'a;
@@ -47,7 +43,11 @@ pub(crate) fn document(
     let mut parser = serde_json::Deserializer::from_reader(input.open()?);
     let read = parser.deserialize_map(Document(&mut walk));
     let read = read.and_then(|rest| parser.end().map(|()| rest));
-    let read = walk.settle(read, |e| input.failure(format_args!("not GeoJSON: {e}")));
+    let fault = walk.fault.take();
+    let read = walk.settle(read, |e| match fault {
+        Some(why) => input.failure(why),
+        None => input.failure(format_args!("not GeoJSON: {e}")),
+    });
     if let Some(rest) = read? {
         let alone = serde_json::from_value::<GeoJson>(Value::Object(rest));
         let alone = alone.map_err(|e| input.failure(format_args!("not GeoJSON: {e}")))?;
@@ -63,44 +63,32 @@ pub(crate) fn sequence(
     positions: Positions,
     take: &mut Take<'_>,
 ) -> Result<(), Failure> {
-    let mut reader = input.open()?;
     let mut walk = Walk::new(positions, take);
-    let mut number = 0;
-    let mut line = Vec::new();
-    loop {
-        line.clear();
-        number += 1;
-        let at = |why: String| input.failure_in_line((number, why));
-        let read = read_line(&mut reader, &mut line, number);
-        if !read.map_err(|e| input.failure_in_line(e))? {
-            return Ok(());
-        }
-        // RFC 8142 puts a record separator before each text.
-        let text = line.trim_ascii();
-        let text = text.strip_prefix(b"\x1e").unwrap_or(text);
-        if text.is_empty() {
-            continue;
-        }
-        let json = serde_json::from_slice::<GeoJson>(text);
-        let json = json.map_err(|e| at(format!("not GeoJSON: {e}")))?;
-        walk.feature = 0;
+    let reader = Separated(input.open()?);
+    for json in serde_json::Deserializer::from_reader(reader).into_iter::<GeoJson>() {
+        let number = walk.feature;
+        let fail = |e| input.failure_at(format_args!("feature {number}"), e);
+        let json = json.map_err(|e| fail(format!("not GeoJSON: {e}")))?;
         let walked = walk.json(&json);
-        walk.settle(walked, at)?;
+        walk.settle(walked, |why| input.failure(why))?;
     }
+    Ok(())
 }
 
-fn read_line(
-    reader: &mut impl BufRead,
-    line: &mut Vec<u8>,
-    number: u64,
-) -> Result<bool, LineError> {
-    let mut limited = std::io::Read::take(reader, LONGEST as u64 + 1);
-    let count = limited.read_until(b'\n', line);
-    let count = count.map_err(|e| (number, e.to_string()))?;
-    if count > LONGEST {
-        return Err((number, format!("the line is longer than {LONGEST} bytes")));
+/// A sequence as RFC 8142 has it, with a record separator before each text, which
+/// becomes white space; inside a JSON text there can be none.
+struct Separated<R>(R);
+
+impl<R: Read> Read for Separated<R> {
+    fn read(&mut self, buffer: &mut [u8]) -> std::io::Result<usize> {
+        let count = self.0.read(buffer)?;
+        for byte in &mut buffer[..count] {
+            if *byte == 0x1e {
+                *byte = b' ';
+            }
+        }
+        Ok(count)
     }
-    Ok(count > 0)
 }
 
 /// Gives the segments of geometries.
@@ -111,6 +99,8 @@ struct Walk<'a, 'b> {
     feature: u64,
     /// What `take` answered, if it was an error.
     stopped: Option<Failure>,
+    /// What was wrong with a position, if that ended the reading.
+    fault: Option<Reason>,
 }
 
 /// Why a walk ended early.
@@ -123,6 +113,7 @@ impl<'a, 'b> Walk<'a, 'b> {
             take,
             feature: 0,
             stopped: None,
+            fault: None,
         }
     }
 
@@ -137,7 +128,10 @@ impl<'a, 'b> Walk<'a, 'b> {
 
     fn json(&mut self, json: &GeoJson) -> Result<(), Reason> {
         match json {
-            GeoJson::Geometry(geometry) => self.geometry(geometry),
+            GeoJson::Geometry(geometry) => {
+                self.feature += 1;
+                self.geometry(geometry)
+            }
             GeoJson::Feature(feature) => self.feature(feature),
             GeoJson::FeatureCollection(list) => {
                 list.features.iter().try_for_each(|f| self.feature(f))
@@ -279,7 +273,10 @@ impl<'de> Visitor<'de> for Features<'_, '_, '_> {
             let Some(feature) = next else {
                 return Ok(());
             };
-            self.0.feature(&feature).map_err(S::Error::custom)?;
+            if let Err(why) = self.0.feature(&feature) {
+                self.0.fault = Some(why);
+                return Err(S::Error::custom("a feature makes no sense"));
+            }
         }
     }
 }

@@ -19,7 +19,7 @@ use gltf::json::validation::Checked;
 use gltf::mesh::Mode;
 use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
 use std::collections::HashMap;
-use std::io::Read;
+use std::io::{BufRead, Read};
 use std::path::Path;
 
 /// Extensions that change nothing of what is read here, or that it handles.
@@ -40,33 +40,28 @@ const POSITIONS: Checked<gltf::Semantic> = Checked::Valid(gltf::Semantic::Positi
 
 /// Reads a file's edges.
 pub(super) fn read(input: &Input, choice: Option<EdgeChoice>) -> Result<Scene, Failure> {
-    let mut reader = input.open()?;
-    let mut bytes = vec![0; 12];
-    let have = stl::fill(&mut reader, &mut bytes).map_err(|e| input.failure(e))?;
-    bytes.truncate(have);
-    // What cannot be glTF is not read: it could be of any length.
-    let limit = match bytes.get(8..12).and_then(|b| b.first_chunk()) {
-        Some(&length) if bytes.starts_with(b"glTF") => {
-            u64::from(u32::from_le_bytes(length)).max(20)
-        }
-        _ if bytes.starts_with(b"glTF") || bytes.trim_ascii_start().starts_with(b"{") => u64::MAX,
-        _ if have == 0 => return Err(input.failure("the file is empty")),
-        _ => {
-            let why = "not glTF: it begins neither with glTF nor with {";
-            return Err(input.failure(why));
-        }
-    };
-    reader
-        .take(limit.saturating_sub(have as u64))
-        .read_to_end(&mut bytes)
-        .map_err(|e| input.failure(e))?;
-    read_bytes(input.name(), &bytes, choice)
+    read_from(input.name(), input.open()?, input.size(), choice)
 }
 
-/// Reads the edges in a file's bytes.
-fn read_bytes(file: &Path, bytes: &[u8], choice: Option<EdgeChoice>) -> Result<Scene, Failure> {
-    let (root, blob) = parse(file, bytes)?;
-    let data = Data::load(file, &root, blob)?;
+/// Reads edges from a file's bytes, of which there are `size`, if that is known.
+fn read_from(
+    file: &Path,
+    mut reader: impl BufRead,
+    size: Option<u64>,
+    choice: Option<EdgeChoice>,
+) -> Result<Scene, Failure> {
+    let start = reader.fill_buf().map_err(|e| Failure::in_file(file, e))?;
+    let (root, blob) = if start.starts_with(b"glTF") {
+        glb(file, &mut reader, size)?
+    } else if start.trim_ascii_start().starts_with(b"{") {
+        let root = document(reader, size).map_err(|e| not_gltf(file, "", &e))?;
+        (root, None)
+    } else {
+        let why = "not glTF: it begins neither with glTF nor with {";
+        return Err(Failure::in_file(file, why));
+    };
+    let root = validated(file, root)?;
+    let data = Data::load(file, &root, blob.as_deref())?;
     let placed = place_nodes(&root).map_err(|why| Failure::in_file(file, why))?;
     let kind = choice.unwrap_or_else(|| default_kind(&root, &placed));
 
@@ -92,17 +87,27 @@ fn read_bytes(file: &Path, bytes: &[u8], choice: Option<EdgeChoice>) -> Result<S
     Ok(Scene::new(meshes, instances, kind))
 }
 
-/// The JSON, checked, and the binary chunk if there is one.
-fn parse<'a>(file: &Path, bytes: &'a [u8]) -> Result<(json::Root, Option<&'a [u8]>), Failure> {
-    let (text, blob, start) = if bytes.starts_with(b"glTF") {
-        let chunks = split_glb(bytes)
-            .map_err(|(byte, why)| Failure::at(file, format_args!("byte {byte}"), why))?;
-        (chunks.0, chunks.1, "the JSON chunk's ")
-    } else {
-        (bytes, None, "")
-    };
-    let mut root: json::Root = json::deserialize::from_slice(text)
-        .map_err(|e| Failure::in_file(file, format_args!("not glTF: at {start}{e}")))?;
+/// JSON up to this length is parsed from memory, which is faster.
+const SHORT: u64 = 1 << 26;
+
+/// Parses JSON. A long one is not read as a whole first: it could be anything.
+fn document(mut reader: impl Read, size: Option<u64>) -> Result<json::Root, json::Error> {
+    if size.is_none_or(|size| size > SHORT) {
+        return json::deserialize::from_reader(reader);
+    }
+    let mut text = Vec::new();
+    match reader.read_to_end(&mut text) {
+        Ok(_) => json::deserialize::from_slice(&text),
+        Err(e) => Err(json::Error::io(e)),
+    }
+}
+
+fn not_gltf(file: &Path, chunk: &str, why: &json::Error) -> Failure {
+    Failure::in_file(file, format_args!("not glTF: at {chunk}{why}"))
+}
+
+/// The JSON, checked.
+fn validated(file: &Path, mut root: json::Root) -> Result<json::Root, Failure> {
     root.extensions_required
         .retain(|name| !HARMLESS.iter().any(|known| name.starts_with(known)));
     if let Some(name) = root
@@ -123,7 +128,7 @@ fn parse<'a>(file: &Path, bytes: &'a [u8]) -> Result<(json::Root, Option<&'a [u8
         },
         other => Failure::in_file(file, other),
     })?;
-    Ok((document.into_json(), blob))
+    Ok(document.into_json())
 }
 
 /// The crate's check of positions indexes the accessors before it has checked
@@ -142,51 +147,82 @@ fn check_positions(root: &json::Root) -> Result<(), (String, String)> {
     Ok(())
 }
 
-/// The JSON chunk and, if there is one, the binary chunk.
-type Chunks<'a> = (&'a [u8], Option<&'a [u8]>);
-
-/// The chunks of a GLB file; an error comes with its byte.
-fn split_glb(bytes: &[u8]) -> Result<Chunks<'_>, (usize, String)> {
-    let word = |at: usize| -> Result<u32, (usize, String)> {
-        let four = bytes.get(at..).and_then(|rest| rest.first_chunk());
-        let four = four.ok_or_else(|| (at, "the file ends inside a header".to_owned()))?;
-        Ok(u32::from_le_bytes(*four))
-    };
-    let version = word(4)?;
+/// The JSON and, if there is one, the binary chunk of a GLB file. Errors of the
+/// container name the byte.
+fn glb(
+    file: &Path,
+    reader: &mut impl Read,
+    size: Option<u64>,
+) -> Result<(json::Root, Option<Vec<u8>>), Failure> {
+    let fail = |byte: u64, why: String| Failure::at(file, format_args!("byte {byte}"), why);
+    let mut header = [0; 12];
+    fill_all(reader, &mut header, 0).map_err(|(at, why)| fail(at, why))?;
+    let [_, version, total] = words(&header);
     if version != 2 {
-        return Err((4, format!("GLB version {version}; expected 2")));
+        return Err(fail(4, format!("GLB version {version}; expected 2")));
     }
-    let total = word(8)? as usize;
-    let Some(all) = bytes.get(..total) else {
-        let have = bytes.len();
-        return Err((
-            8,
-            format!("the header says {total} bytes; the file has {have}"),
-        ));
-    };
-    let chunk = |at: usize, kind: &[u8; 4]| -> Result<&[u8], (usize, String)> {
-        let length = word(at)? as usize;
-        let name = String::from_utf8_lossy(&kind[..3 + usize::from(kind[3] != 0)]);
-        if word(at + 4)? != u32::from_le_bytes(*kind) {
-            return Err((at + 4, format!("expected a {name} chunk")));
-        }
-        let data = all.get(at + 8..).and_then(|rest| rest.get(..length));
-        data.ok_or_else(|| {
-            let left = all.len().saturating_sub(at + 8);
-            (
-                at,
-                format!("the {name} chunk says {length} bytes; {left} are left"),
-            )
-        })
-    };
-    let text = chunk(12, b"JSON")?;
-    let at = 20 + text.len();
-    let blob = if at + 8 <= all.len() {
-        Some(chunk(at, b"BIN\0")?)
-    } else {
-        None
-    };
-    Ok((text, blob))
+    let total = u64::from(total);
+    if let Some(have) = size.filter(|&have| have < total) {
+        let why = format!("the header says {total} bytes; the file has {have}");
+        return Err(fail(8, why));
+    }
+    let length = chunk(reader, 12, total, b"JSON").map_err(|(at, why)| fail(at, why))?;
+    let root = document(reader.take(length), Some(length))
+        .map_err(|e| not_gltf(file, "the JSON chunk's ", &e))?;
+    let at = 20 + length;
+    if at + 8 > total {
+        return Ok((root, None));
+    }
+    let length = chunk(reader, at, total, b"BIN\0").map_err(|(at, why)| fail(at, why))?;
+    let mut blob = Vec::new();
+    let read = reader.take(length).read_to_end(&mut blob);
+    let have = read.map_err(|e| fail(at, e.to_string()))? as u64;
+    if have < length {
+        let why = format!("the BIN chunk says {length} bytes; {have} are left");
+        return Err(fail(at, why));
+    }
+    Ok((root, Some(blob)))
+}
+
+/// The length of the chunk that begins at a byte, which must be of a kind.
+fn chunk(
+    reader: &mut impl Read,
+    at: u64,
+    total: u64,
+    kind: &[u8; 4],
+) -> Result<u64, (u64, String)> {
+    let mut header = [0; 8];
+    fill_all(reader, &mut header, at)?;
+    let [length, found] = words(&header);
+    let name = String::from_utf8_lossy(&kind[..3 + usize::from(kind[3] != 0)]);
+    if found != u32::from_le_bytes(*kind) {
+        return Err((at + 4, format!("expected a {name} chunk")));
+    }
+    let (length, left) = (u64::from(length), total.saturating_sub(at + 8));
+    if length > left {
+        let why = format!("the {name} chunk says {length} bytes; {left} are left");
+        return Err((at, why));
+    }
+    Ok(length)
+}
+
+/// Little-endian numbers.
+fn words<const N: usize>(bytes: &[u8]) -> [u32; N] {
+    std::array::from_fn(|i| {
+        let four = bytes.get(4 * i..).and_then(|rest| rest.first_chunk());
+        u32::from_le_bytes(four.copied().unwrap_or_default())
+    })
+}
+
+/// Fills a header that begins at a byte.
+fn fill_all(reader: &mut impl Read, header: &mut [u8], at: u64) -> Result<(), (u64, String)> {
+    let have = stl::fill(reader, header).map_err(|why| (at, why))?;
+    if have < header.len() {
+        // The word that is torn.
+        let word = at + have as u64 / 4 * 4;
+        return Err((word, "the file ends inside a header".to_owned()));
+    }
+    Ok(())
 }
 
 /// A mesh on a node.
@@ -428,7 +464,13 @@ mod tests {
     fn damaged_files_are_read_or_refused_and_never_panic() {
         let whole = sample();
         let file = Path::new("damaged.glb");
-        let scene = read_bytes(file, &whole, Some(EdgeChoice::All)).unwrap();
+        let scene = read_from(
+            file,
+            &whole[..],
+            Some(whole.len() as u64),
+            Some(EdgeChoice::All),
+        )
+        .unwrap();
         assert_eq!(scene.len(), 16 + 12);
         let mut state = 88_172_645_463_325_252_u64;
         let mut next = |most: usize| {
@@ -452,7 +494,12 @@ mod tests {
             if round % 16 == 0 {
                 bytes.truncate(next(bytes.len()));
             }
-            match read_bytes(file, &bytes, Some(EdgeChoice::All)) {
+            match read_from(
+                file,
+                &bytes[..],
+                Some(bytes.len() as u64),
+                Some(EdgeChoice::All),
+            ) {
                 Ok(scene) => {
                     let mut segments = Vec::<frusta::Segment<f32>>::new();
                     scene.fill(0, scene.len(), &mut segments);

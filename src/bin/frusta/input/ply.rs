@@ -10,7 +10,7 @@ use super::lines::{LONGEST, Lines};
 use super::opened::{Input, Reader};
 use super::scene::{Instance, Mesh};
 use super::{EdgeChoice, Scene};
-use crate::failure::Failure;
+use crate::failure::{Failure, quote};
 use frusta::Vec3;
 use ply_rs_bw::parser::Parser;
 use ply_rs_bw::ply::{
@@ -71,10 +71,12 @@ fn header(reader: &mut Reader) -> Result<(Header, u64), Fault> {
     let text = cleaned(&text);
     let parsed = Parser::<Skipped>::new().read_ply_header(&mut &text[..]);
     let header = parsed.map_err(|e| {
-        let place = e
-            .line()
-            .map_or("header".to_owned(), |n| format!("line {n}"));
-        (place, one_line(&e))
+        // The crate's own messages are a parser's; the line says more.
+        let number = e.line().unwrap_or(1);
+        let line = text.split(|&b| b == b'\n').nth(number - 1);
+        let line = String::from_utf8_lossy(line.unwrap_or_default());
+        let why = format!("{} makes no sense in the header", quote(&line));
+        (format!("line {number}"), why)
     })?;
     Ok((header, lines))
 }
@@ -96,20 +98,6 @@ fn cleaned(text: &[u8]) -> Vec<u8> {
     out
 }
 
-/// The crate's messages have several lines and the whole of the input's.
-fn one_line(error: &ply_rs_bw::parser::ParseError) -> String {
-    let text = error.to_string();
-    let text = text
-        .split_once(": ")
-        .filter(|(l, _)| l.starts_with("Line "))
-        .map_or(&*text, |t| t.1);
-    let lines = text
-        .lines()
-        .map(str::trim)
-        .filter(|l| !l.starts_with("String:"));
-    lines.collect::<Vec<_>>().join(" ")
-}
-
 /// What follows the header.
 enum Payload {
     /// Lines, after so many of the header.
@@ -129,7 +117,7 @@ impl Payload {
                     .next()
                     .map_err(|(n, why)| (format!("line {}", *before + n), why))?;
                 let Some((n, line)) = line else {
-                    let why = format!("the file ends before it, of {}", def.count);
+                    let why = format!("the file ends before it; the header says {}", def.count);
                     return Err((place(), why));
                 };
                 if line.is_empty() {
@@ -137,9 +125,10 @@ impl Payload {
                 }
                 let at = || format!("line {}, {}", *before + n, place());
                 let text = std::str::from_utf8(line).map_err(|_| (at(), "not UTF-8".to_owned()))?;
-                return parser
-                    .read_ascii_element(text, def)
-                    .map_err(|e| (at(), one_line(&e)));
+                return parser.read_ascii_element(text, def).map_err(|_| {
+                    let why = format!("{} are not its numbers in the header's order", quote(text));
+                    (at(), why)
+                });
             },
             Self::Binary(reader, big) => {
                 let read = if *big {
@@ -150,9 +139,9 @@ impl Payload {
                 read.map_err(|e| match e.kind() {
                     std::io::ErrorKind::UnexpectedEof => (
                         place(),
-                        format!("the file ends inside it, of {}", def.count),
+                        format!("the file ends inside it; the header says {}", def.count),
                     ),
-                    _ => (place(), one_line(&e)),
+                    _ => (place(), e.to_string()),
                 })
             }
         }
