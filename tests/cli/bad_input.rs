@@ -448,7 +448,7 @@ fn outputs_that_cannot_be_written() {
     let folder = Folder::new();
     std::fs::create_dir(folder.path("taken.csv")).unwrap();
     for (name, part) in [
-        ("out.png", "expected .csv, .obj or .svg"),
+        ("out.gif", "expected .csv, .obj, .svg or .png"),
         ("no/such/folder/out.csv", "cannot be written"),
         ("taken.csv", "not a plain file"),
     ] {

@@ -4,10 +4,12 @@
 mod bad_input;
 mod formats;
 mod output;
+mod pictures;
 mod report;
 mod statistics;
 mod view;
 
+use frusta::{Real, Segment};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
@@ -44,6 +46,19 @@ fn statistics(args: &[&str]) -> Value {
 
 fn text(bytes: &[u8]) -> String {
     String::from_utf8(bytes.to_vec()).unwrap()
+}
+
+/// Segments about a frustum of size 1 to 3, many of them clipped.
+fn random_segments<T: Real>(count: usize) -> Vec<Segment<T>> {
+    let mut state = 7_u64;
+    let mut next = || {
+        state ^= state << 13;
+        state ^= state >> 7;
+        state ^= state << 17;
+        T::from_f64((state >> 11) as f64 / (1_u64 << 53) as f64 * 8.0 - 4.0)
+    };
+    let mut point = || [next(), next(), next()];
+    (0..count).map(|_| Segment::new(point(), point())).collect()
 }
 
 /// A folder for one test.

@@ -15,6 +15,7 @@ use crate::failure::Failure;
 use crate::input::{EdgeChoice, Format};
 use crate::number::Scalar;
 use crate::output::{self, Kind, Writer};
+use crate::picture::{Canvas, PictureArgs, View};
 use crate::stats::{Report, Times};
 use crate::terminal::print;
 use crate::view::ViewArgs;
@@ -33,7 +34,7 @@ use std::time::Instant;
 pub(crate) struct ClipArgs {
     /// What to clip: .glb, .gltf, .obj, or .csv with a segment x0,y0,z0,x1,y1,z1 a row
     file: PathBuf,
-    /// Write the result: .csv (a row a segment), .obj (lines), .svg (what the camera sees)
+    /// Write the result: .csv (a row a segment), .obj (lines), .svg or .png (a picture)
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
     /// Statistics as JSON on the standard output
@@ -57,6 +58,8 @@ pub(crate) struct ClipArgs {
     /// Threads that clip [default: one a core]; the output does not depend on it
     #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u16).range(1..=256))]
     threads: Option<u16>,
+    #[command(flatten)]
+    pictures: PictureArgs,
     #[command(flatten)]
     view: ViewArgs,
 }
@@ -85,17 +88,29 @@ fn run_as<T: Scalar>(args: &ClipArgs) -> Result<(), Failure> {
     }
     let format = Format::of(&args.file)?;
     let kind = Kind::of(args.output.as_deref())?;
+    if let Some(flag) = args.pictures.given().filter(|_| !kind.is_picture()) {
+        let why = format_args!("{flag} is for pictures; give -o FILE.svg or FILE.png");
+        return Err(Failure::new(why));
+    }
     let source = Source::open(&args.file, format, args.edges)?;
     let view = args.view.view(|| source.bounds())?;
     let accuracy = args.accuracy.unwrap_or(Accuracy::Fast);
+    let canvas = || {
+        let options = args.pictures.options();
+        let scene = match options.view {
+            View::Camera => None,
+            View::Outside => Some(source.bounds()?),
+        };
+        Canvas::new(options, &view.frustum, scene.as_ref())
+    };
     let run = Run {
         engine: Engine::<T>::new(args.algorithm, args.arithmetic, accuracy),
-        output: output::Format::new(kind, &view.frustum),
+        output: output::Format::new(kind, canvas)?,
         threads: args.threads.map_or_else(crate::cores, usize::from),
         source: &source,
         frustum: &view.frustum,
     };
-    let mut writer = Writer::create(&run.output, args.output.as_deref())?;
+    let mut writer = Writer::create(kind, &run.output, args.output.as_deref())?;
     let mut times = Times {
         read: start.elapsed(),
         ..Times::default()
@@ -154,8 +169,12 @@ Output, whole or not at all
         contain the entry point, the exit point, the whole segment. Numbers read back to the same
         bits. For outside the fields after class are empty.
   .obj  two vertices and a line element for each part; a vertex and a point element for a touch.
-  .svg  what the camera sees, from the near rectangle's side, hidden lines included; places are
-        rounded to a tenth of a pixel, or more where the strokes would be too many for a viewer.
+  .svg .png  a picture; a PNG is the SVG, rasterised. --picture camera: what the camera sees, from
+        the near rectangle's side, hidden lines included. --picture outside: the frustum and the
+        scene around it from the frustum's right, behind and above, in parallel projection; a
+        frustum much deeper than the scene is drawn open, as far as the scene goes. Up to 20,000
+        strokes are drawn one by one. More are summed up by pixel: a place's tone is its rank
+        among all others (histogram equalisation), clipped edges and cut points lie on top.
 
 Statistics (a table, or --json), among others
   filter_failure_share  of the segments, how many had a sign that the floating-point filter left
@@ -181,6 +200,8 @@ Examples
       which edges a default camera takes in; prints the flags that give the same camera again
   frusta clip part.glb --up 0,-1,0 -o view.svg
       a picture, for a model whose y points downwards
+  frusta clip part.glb --picture outside --theme dark -o frustum.png
+      which edges the camera takes in, seen from outside
   frusta clip edges.csv --eye 0,0,5 --target 0,0,0 --near 1 --far inf -o clipped.csv
       every row's part in an infinite frustum
   frusta clip edges.csv --frustum view.json --accuracy inward --json

@@ -6,14 +6,14 @@
 mod csv;
 mod file;
 mod obj;
-mod svg;
-mod thin;
 
 use crate::failure::Failure;
 use crate::number::Scalar;
+use crate::picture::{self, Canvas, Picture, Traced};
 use file::WholeFile;
-use frusta::{Frustum, SegmentClip};
+use frusta::{Segment, SegmentClip};
 use std::path::Path;
+use std::sync::Arc;
 
 /// What a worker makes of its results.
 #[derive(Debug, Default)]
@@ -24,8 +24,8 @@ pub(crate) struct Formatted {
     points: Vec<u32>,
     /// OBJ: how many parts there are.
     parts: u32,
-    /// SVG: what to draw.
-    strokes: Vec<thin::Stroke>,
+    /// Pictures: what was drawn.
+    traced: Traced,
 }
 
 /// Kinds of output files, told by the name's extension.
@@ -39,6 +39,8 @@ pub(crate) enum Kind {
     Obj,
     /// `.svg`
     Svg,
+    /// `.png`
+    Png,
 }
 
 impl Kind {
@@ -52,11 +54,17 @@ impl Kind {
             "csv" => Ok(Self::Csv),
             "obj" => Ok(Self::Obj),
             "svg" => Ok(Self::Svg),
+            "png" => Ok(Self::Png),
             _ => Err(Failure::in_file(
                 file,
-                "unknown kind of output; expected .csv, .obj or .svg",
+                "unknown kind of output; expected .csv, .obj, .svg or .png",
             )),
         }
+    }
+
+    /// Whether it is a picture.
+    pub(crate) fn is_picture(self) -> bool {
+        matches!(self, Self::Svg | Self::Png)
     }
 }
 
@@ -69,29 +77,37 @@ pub(crate) enum Format {
     Csv,
     /// A line element a part.
     Obj,
-    /// What the camera sees.
-    Svg(svg::Projector),
+    /// Drawn.
+    Picture(Arc<Canvas>),
 }
 
 impl Format {
-    /// Formatting for a kind of file and a frustum.
-    pub(crate) fn new(kind: Kind, frustum: &Frustum) -> Self {
-        match kind {
+    /// Formatting for a kind of file; pictures are drawn on what `canvas` gives.
+    pub(crate) fn new(
+        kind: Kind,
+        canvas: impl FnOnce() -> Result<Canvas, Failure>,
+    ) -> Result<Self, Failure> {
+        Ok(match kind {
             Kind::None => Self::None,
             Kind::Csv => Self::Csv,
             Kind::Obj => Self::Obj,
-            Kind::Svg => Self::Svg(svg::Projector::new(frustum)),
-        }
+            Kind::Svg | Kind::Png => Self::Picture(Arc::new(canvas()?)),
+        })
     }
 
     /// Formats the results of the segments from number `first` on.
-    pub(crate) fn format<T: Scalar>(&self, first: u64, clips: &[SegmentClip<T>]) -> Formatted {
+    pub(crate) fn format<T: Scalar>(
+        &self,
+        first: u64,
+        segments: &[Segment<T>],
+        clips: &[SegmentClip<T>],
+    ) -> Formatted {
         let mut out = Formatted::default();
         match self {
             Self::None => {}
             Self::Csv => csv::format(first, clips, &mut out.text),
             Self::Obj => obj::format(clips, &mut out),
-            Self::Svg(projector) => svg::format(projector, clips, &mut out.strokes),
+            Self::Picture(canvas) => out.traced = canvas.trace(segments, clips),
         }
         out
     }
@@ -105,13 +121,17 @@ pub(crate) enum Writer {
     Csv(WholeFile),
     /// Vertices, written as they come; then the elements.
     Obj(WholeFile, obj::Elements),
-    /// Strokes, kept until the end.
-    Svg(WholeFile, svg::Picture),
+    /// A picture, written at the end.
+    Picture(WholeFile, Kind, Picture),
 }
 
 impl Writer {
     /// Begins a file; it appears under its name only when it is finished.
-    pub(crate) fn create(format: &Format, file: Option<&Path>) -> Result<Self, Failure> {
+    pub(crate) fn create(
+        kind: Kind,
+        format: &Format,
+        file: Option<&Path>,
+    ) -> Result<Self, Failure> {
         let Some(file) = file else {
             return Ok(Self::None);
         };
@@ -126,7 +146,7 @@ impl Writer {
                 out.write(obj::HEADER.as_bytes())?;
                 Self::Obj(out, obj::Elements::default())
             }
-            Format::Svg(projector) => Self::Svg(out, svg::Picture::new(projector)),
+            Format::Picture(canvas) => Self::Picture(out, kind, Picture::new(canvas.clone())),
         })
     }
 
@@ -139,8 +159,8 @@ impl Writer {
                 elements.add(chunk.parts, &chunk.points);
                 out.write(&chunk.text)
             }
-            Self::Svg(_, picture) => {
-                picture.add(&chunk.strokes);
+            Self::Picture(_, _, picture) => {
+                picture.add(&chunk.traced);
                 Ok(())
             }
         }
@@ -156,8 +176,12 @@ impl Writer {
                 elements.write(|text| out.write(text))?;
                 out.finish()
             }
-            Self::Svg(mut out, picture) => {
-                out.write(picture.draw(title, classes).as_bytes())?;
+            Self::Picture(mut out, kind, picture) => {
+                let svg = picture.svg(title, classes)?;
+                match kind {
+                    Kind::Png => out.write(&picture::png(&svg)?)?,
+                    _ => out.write(svg.as_bytes())?,
+                }
                 out.finish()
             }
         }

@@ -1,9 +1,21 @@
-//! What all pictures have in common: colours, and PNG from SVG.
+//! Pictures: of what was clipped, and what all pictures have in common.
 //!
 //! Every picture is made as SVG; a PNG is that SVG, rasterised.
 
+mod caption;
+mod density;
+mod drawing;
+mod layer;
+mod options;
+mod outside;
 mod palette;
 mod png;
+mod projector;
+mod strokes;
+mod tone;
+mod wireframe;
 
+pub(crate) use drawing::{Canvas, Picture, Traced};
+pub(crate) use options::{PictureArgs, View};
 pub(crate) use palette::{Palette, Theme};
 pub(crate) use png::png;
