@@ -35,7 +35,7 @@ const DEFAULT_WIDTH: f64 = 1200.0;
 /// Text stays this large, of its size in a picture of the default width.
 const LEAST_UNIT: f64 = 0.5;
 /// Marks in a density picture, in the picture's units.
-const CUT_RADIUS: f64 = 0.9;
+const CUT_RADIUS: f64 = 0.75;
 const TOUCH_RADIUS: f64 = 2.6;
 
 /// What all workers draw on.

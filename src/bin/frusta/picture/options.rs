@@ -23,7 +23,7 @@ pub(crate) struct PictureArgs {
     /// Its colours [default: light]
     #[arg(long)]
     theme: Option<Theme>,
-    /// Its width; of a tall one the height, without the caption [default: 1200]
+    /// Its width, 200 to 8000; of a tall one the height, without the caption [default: 1200]
     #[arg(long, value_name = "PIXELS", value_parser = clap::value_parser!(u16).range(200..=8000))]
     width: Option<u16>,
 }

@@ -114,7 +114,11 @@ impl Projector {
         };
         let weight = 1.0 / (distance * distance * distance);
         // NaN, at an apex, becomes the least.
-        weight.max(LIGHTEST).min(1.0) as f32
+        if weight > LIGHTEST {
+            weight.min(1.0) as f32
+        } else {
+            LIGHTEST as f32
+        }
     }
 
     /// Gives the straight pieces of the line between two points, each with its
