@@ -2,6 +2,7 @@
 //!
 //! Every picture is made as SVG; a PNG is that SVG, rasterised.
 
+mod canvas;
 mod caption;
 mod density;
 mod drawing;
@@ -13,9 +14,11 @@ mod png;
 mod projector;
 mod strokes;
 mod tone;
+mod window;
 mod wireframe;
 
-pub(crate) use drawing::{Canvas, Picture, Traced};
+pub(crate) use canvas::{Canvas, Traced};
+pub(crate) use drawing::Picture;
 pub(crate) use options::{PictureArgs, View};
 pub(crate) use palette::{Palette, Theme};
 pub(crate) use png::png;

@@ -14,9 +14,10 @@
 //!         the solid's size
 //! ```
 
+use super::window::Window;
 use crate::failure::Failure;
 use crate::input::Bounds;
-use frusta::{Direction, EndRect, Frustum, Pose, Shape, Vec3};
+use frusta::{EndRect, Frustum, Pose, Shape, Vec3};
 
 /// From the solid's middle to the onlooker: right, up, forward. Of a camera with
 /// less than 110 degrees no side is seen edge-on.
@@ -27,12 +28,6 @@ const WIDEST: f64 = 2.0;
 const APEX: f64 = 1.6;
 /// A frustum so much deeper than the scene is drawn open.
 const ENDLESS: f64 = 1.5;
-/// Around everything, of the window's size.
-const PADDING: f64 = 0.05;
-/// Width over height of the picture.
-const RATIOS: [f64; 2] = [1.0, 2.0];
-/// The greatest depth of the onlooker's own frustum.
-const DEEPEST: f64 = 1e307;
 
 /// The part of the frustum that is drawn.
 #[derive(Clone, Copy, Debug)]
@@ -82,7 +77,9 @@ impl Outside {
             window = window.and(scene.cut(&solid_only.square(WIDEST)));
             depth = depth.max(scene.depth());
         }
-        let frustum = window.frustum(Pose::new(centre, [right, up, forward]), depth)?;
+        let frustum = window
+            .frustum(Pose::new(centre, [right, up, forward]), depth)
+            .map_err(|_| too_large())?;
         Ok(Self { frustum, solid })
     }
 }
@@ -214,88 +211,6 @@ fn onlooker(solid: &Solid) -> [Vec3<f64>; 3] {
     [sideways, back.cross(sideways), -back]
 }
 
-/// What the onlooker sees, along right, up and forward.
-#[derive(Clone, Copy, Debug)]
-struct Window {
-    low: [f64; 3],
-    high: [f64; 3],
-}
-
-impl Window {
-    fn around(points: impl Iterator<Item = [f64; 3]>) -> Self {
-        let empty = Self {
-            low: [f64::INFINITY; 3],
-            high: [f64::NEG_INFINITY; 3],
-        };
-        points.fold(empty, |all, p| all.and(Self { low: p, high: p }))
-    }
-
-    fn and(self, other: Self) -> Self {
-        Self {
-            low: std::array::from_fn(|i| self.low[i].min(other.low[i])),
-            high: std::array::from_fn(|i| self.high[i].max(other.high[i])),
-        }
-    }
-
-    /// What it has in common with another; at least a point of that.
-    fn cut(self, other: &Self) -> Self {
-        let into = |v: [f64; 3]| std::array::from_fn(|i| v[i].clamp(other.low[i], other.high[i]));
-        Self {
-            low: into(self.low),
-            high: into(self.high),
-        }
-    }
-
-    fn scaled(self, factor: f64) -> Self {
-        let half = |i: usize| 0.5 * factor * (self.high[i] - self.low[i]);
-        let middle = |i: usize| 0.5 * self.low[i] + 0.5 * self.high[i];
-        Self {
-            low: std::array::from_fn(|i| middle(i) - half(i)),
-            high: std::array::from_fn(|i| middle(i) + half(i)),
-        }
-    }
-
-    /// A square window of the same middle, its sides `factor` times the larger
-    /// of width and height.
-    fn square(self, factor: f64) -> Self {
-        let larger = (self.high[0] - self.low[0]).max(self.high[1] - self.low[1]);
-        let half = 0.5 * factor * larger;
-        let middle = |i: usize| 0.5 * self.low[i] + 0.5 * self.high[i];
-        Self {
-            low: std::array::from_fn(|i| middle(i) - half),
-            high: std::array::from_fn(|i| middle(i) + half),
-        }
-    }
-
-    /// Whether its width and height are another's at most.
-    fn within(&self, other: &Self) -> bool {
-        (0..2).all(|i| self.high[i] - self.low[i] <= other.high[i] - other.low[i])
-    }
-
-    fn depth(&self) -> f64 {
-        self.low[2].abs().max(self.high[2].abs())
-    }
-
-    /// The frustum through this window, with some air around and not too oblong;
-    /// deep enough for what is unknown.
-    fn frustum(&self, pose: Pose, depth: f64) -> Result<Frustum, Failure> {
-        let size = [0, 1].map(|i| self.high[i] - self.low[i]);
-        let larger = size[0].max(size[1]);
-        let height = size[1].max(size[0] / RATIOS[1]).max(larger * 1e-3);
-        let width = size[0].max(height * RATIOS[0]);
-        let half = [width, height].map(|s| s * (0.5 + PADDING));
-        let [x, y] = [0, 1].map(|i| 0.5 * self.low[i] + 0.5 * self.high[i]);
-        let z = (2.0 * depth).max(1e4 * larger).min(DEEPEST);
-        let end = |z: f64| EndRect::new(z, x - half[0], x + half[0], y - half[1], y + half[1]);
-        let shape = Shape::Finite {
-            near: end(-z),
-            far: end(z),
-        };
-        debug_assert_eq!(shape.direction(), Direction::PlusZ);
-        Frustum::new(pose, shape).map_err(|_| too_large())
-    }
-}
-
 fn corners(bounds: &Bounds) -> [Vec3<f64>; 8] {
     let ends = [bounds.low, bounds.high];
     std::array::from_fn(|i| Vec3::new(ends[i & 1].x, ends[i >> 1 & 1].y, ends[i >> 2].z))
@@ -323,7 +238,7 @@ fn unit(v: Vec3<f64>) -> Option<Vec3<f64>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use frusta::{Camera, Projection, Rect};
+    use frusta::{Camera, Direction, Projection, Rect};
 
     fn camera(near: f64, far: f64) -> Frustum {
         let projection = Projection::Perspective {
