@@ -466,7 +466,7 @@ fn outputs_that_cannot_be_written() {
     let folder = Folder::new();
     std::fs::create_dir(folder.path("taken.csv")).unwrap();
     for (name, part) in [
-        ("out.gif", "expected .csv, .obj, .glb"),
+        ("out.gif", "expected .csv, .obj, .glb, .svg or .png"),
         (
             "no/such/folder/out.csv",
             "out.csv: cannot be written: its folder does not exist",

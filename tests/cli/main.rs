@@ -7,6 +7,7 @@ mod formats;
 mod geo;
 mod meshes;
 mod output;
+mod pictures;
 mod report;
 mod samples;
 mod shell;
@@ -14,6 +15,7 @@ mod statistics;
 mod streams;
 mod view;
 
+use frusta::{Real, Segment};
 use serde_json::Value;
 use std::ffi::{OsStr, OsString};
 use std::path::{Path, PathBuf};
@@ -57,6 +59,19 @@ fn statistics(args: &[&str]) -> Value {
 
 fn text(bytes: &[u8]) -> String {
     String::from_utf8(bytes.to_vec()).unwrap()
+}
+
+/// Segments about a frustum of size 1 to 3, many of them clipped.
+fn random_segments<T: Real>(count: usize) -> Vec<Segment<T>> {
+    let mut state = 7_u64;
+    let mut next = || {
+        state ^= state << 13;
+        state ^= state >> 7;
+        state ^= state << 17;
+        T::from_f64((state >> 11) as f64 / (1_u64 << 53) as f64 * 8.0 - 4.0)
+    };
+    let mut point = || [next(), next(), next()];
+    (0..count).map(|_| Segment::new(point(), point())).collect()
 }
 
 /// A folder for one test.

@@ -1,7 +1,7 @@
 //! What is written.
 
-use super::{Folder, WIDE, clip, fixture, text};
-use frusta::{Accuracy, EndRect, Frustum, Pose, Real, Segment, Shape};
+use super::{Folder, clip, fixture, random_segments, text};
+use frusta::{Accuracy, EndRect, Frustum, Pose, Real, Shape};
 use std::str::FromStr;
 
 /// The frustum of `pair.json`.
@@ -54,19 +54,6 @@ fn obj_lines_and_points() {
     let rows = folder.rows(&[&out, "--frustum", &fixture("pair.json")]);
     assert_eq!(rows.len(), 4);
     assert!(rows.iter().all(|row| !row.contains("outside")), "{rows:?}");
-}
-
-/// Segments about a frustum of size 1 to 3, many of them clipped.
-fn random_segments<T: Real>(count: usize) -> Vec<Segment<T>> {
-    let mut state = 7_u64;
-    let mut next = || {
-        state ^= state << 13;
-        state ^= state >> 7;
-        state ^= state << 17;
-        T::from_f64((state >> 11) as f64 / (1_u64 << 53) as f64 * 8.0 - 4.0)
-    };
-    let mut point = || [next(), next(), next()];
-    (0..count).map(|_| Segment::new(point(), point())).collect()
 }
 
 /// What is read back from a row has the bits that the library computes.
@@ -126,7 +113,7 @@ fn numbers_read_back_to_the_same_bits() {
 fn the_number_of_threads_does_not_show() {
     let folder = Folder::new();
     let file = fixture("6814_ice_tunnelator.glb");
-    for extension in ["csv", "obj", "svg"] {
+    for extension in ["csv", "obj"] {
         let contents = ["1", "2", "5"].map(|threads| {
             let out = folder.name(&format!("out.{extension}"));
             let run = clip([&file, "--threads", threads, "-o", &out]);
@@ -136,64 +123,6 @@ fn the_number_of_threads_does_not_show() {
         assert!(contents[0].len() > 10_000);
         assert!(contents.iter().all(|c| *c == contents[0]), "{extension}");
     }
-}
-
-#[test]
-fn a_picture_shows_parts_and_marks_where_they_are_clipped() {
-    let folder = Folder::new();
-    let out = folder.name("view.svg");
-    let run = clip([
-        &fixture("six.csv"),
-        "--frustum",
-        &fixture("pair.json"),
-        "-o",
-        &out,
-    ]);
-    assert!(run.status.success());
-    let svg = folder.read("view.svg");
-    assert!(svg.starts_with("<svg ") && svg.ends_with("</svg>\n"));
-    // 1200 pixels in tenths; seen along -z: x to the right, y upwards.
-    assert!(
-        svg.contains(
-            "<path class=\"cross\" stroke=\"#d9600f\" d=\"M6000 6000l0 0M0 6000l12000 0\"/>"
-        ),
-        "{svg}"
-    );
-    assert!(svg.contains("class=\"touch\""));
-    assert!(
-        svg.contains("M12000 0l0 0"),
-        "the touch at the upper right: {svg}"
-    );
-    assert_eq!(svg.matches("<circle").count(), 4);
-    assert!(svg.contains(">outside</tspan> 1"));
-}
-
-#[test]
-fn a_title_is_escaped() {
-    let folder = Folder::new();
-    let file = folder.write("a<b>&c.csv", "0,0,0,1,1,1\n");
-    let out = folder.name("view.svg");
-    assert!(clip([&file, "-o", &out]).status.success());
-    let svg = folder.read("view.svg");
-    assert!(svg.contains("a&lt;b&gt;&amp;c.csv"));
-}
-
-#[test]
-fn many_strokes_are_thinned_to_what_a_viewer_can_open() {
-    let folder = Folder::new();
-    let segments = random_segments::<f64>(120_000);
-    let mut csv = String::new();
-    for Segment { start: a, end: b } in segments {
-        csv += &format!("{},{},{},{},{},{}\n", a.x, a.y, a.z, b.x, b.y, b.z);
-    }
-    let file = folder.write("many.csv", csv);
-    let out = folder.name("many.svg");
-    let mut args = vec![file.as_str(), "-o", &out];
-    args.extend(WIDE);
-    assert!(clip(args).status.success());
-    let svg = folder.read("many.svg");
-    let strokes = svg.matches('M').count();
-    assert!((100..10_000).contains(&strokes), "{strokes}");
 }
 
 #[test]

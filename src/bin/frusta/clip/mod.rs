@@ -16,11 +16,13 @@ use crate::input::geojson::Positions;
 use crate::input::{self, EdgeChoice, Input};
 use crate::number::Scalar;
 use crate::output::{self, Kind, Writer};
+use crate::picture::{Canvas, PictureArgs, View};
 use crate::stats::{Report, Times};
 use crate::terminal::{print, say};
 use crate::view::ViewArgs;
 use crate::whole_file::is_stream;
 use clap::{Args, ValueEnum};
+use frusta::Frustum;
 use run::Run;
 use source::Source;
 use std::path::PathBuf;
@@ -38,7 +40,7 @@ pub(crate) struct ClipArgs {
     /// The file's format [default: by its name]
     #[arg(long, value_name = "FORMAT")]
     from: Option<input::Format>,
-    /// Write the result: .csv (a row a segment), .obj (lines), .svg (what the camera sees)
+    /// Write the result: .csv (a row a segment), .obj .glb (lines), .svg .png (a picture), or - for the standard output
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
     /// The output's format [default: by its name]
@@ -69,6 +71,8 @@ pub(crate) struct ClipArgs {
     #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u16).range(1..=256))]
     threads: Option<u16>,
     #[command(flatten)]
+    pictures: PictureArgs,
+    #[command(flatten)]
     view: ViewArgs,
 }
 
@@ -91,29 +95,22 @@ pub(crate) fn run(args: &ClipArgs) -> Result<(), Failure> {
 
 fn run_as<T: Scalar>(args: &ClipArgs) -> Result<(), Failure> {
     let start = Instant::now();
-    if args.arithmetic == Arithmetic::Plain && args.accuracy.is_some() {
-        return Err(Failure::new("--accuracy is for --arithmetic exact"));
-    }
+    let kind = Kind::of(args.output.as_deref(), args.to)?;
+    args.check(kind)?;
     let input = Input::new(&args.file, args.from)?;
     let (name, format) = (input.name().display().to_string(), input.format.name());
-    let kind = Kind::of(args.output.as_deref(), args.to)?;
-    let positions = if args.ecef {
-        Positions::Ecef
-    } else {
-        Positions::AsGiven
-    };
     let threads = args.threads.map_or_else(crate::cores, usize::from);
-    let source = threads_of(threads)?.install(|| Source::open(input, args.edges, positions))?;
+    let source = threads_of(threads)?.install(|| args.source(input))?;
     let view = args.view.view(|| source.bounds())?;
     let accuracy = args.accuracy.unwrap_or(Accuracy::Fast);
     let run = Run {
         engine: Engine::<T>::new(args.algorithm, args.arithmetic, accuracy),
-        output: output::Format::new(kind, &view.frustum),
+        output: output::Format::new(kind, &view.frustum, || args.canvas(&source, &view.frustum))?,
         threads,
         source: &source,
         frustum: &view.frustum,
     };
-    let mut writer = Writer::create(&run.output, args.output.as_deref())?;
+    let mut writer = Writer::create(kind, &run.output, args.output.as_deref())?;
     let mut times = Times {
         read: start.elapsed(),
         ..Times::default()
@@ -125,7 +122,7 @@ fn run_as<T: Scalar>(args: &ClipArgs) -> Result<(), Failure> {
     times.write += finish.elapsed();
     times.total = start.elapsed();
     let (arithmetic, accuracy) = run.engine.arithmetic();
-    let report = Report {
+    args.tell(&Report {
         file: name,
         format,
         edges: source.edges(),
@@ -142,17 +139,54 @@ fn run_as<T: Scalar>(args: &ClipArgs) -> Result<(), Failure> {
         counts,
         staged: run.engine.counts(),
         times,
-    };
-    let text = if args.json {
-        format!("{:#}\n", report.to_json())
-    } else {
-        report.to_table()
-    };
-    if args.output.as_deref().is_some_and(is_stream) {
-        say(&text);
-        return Ok(());
+    })
+}
+
+impl ClipArgs {
+    /// Refuses flags that would have no effect.
+    fn check(&self, kind: Kind) -> Result<(), Failure> {
+        if self.arithmetic == Arithmetic::Plain && self.accuracy.is_some() {
+            return Err(Failure::new("--accuracy is for --arithmetic exact"));
+        }
+        match self.pictures.given().filter(|_| !kind.is_picture()) {
+            Some(flag) => Err(Failure::new(format_args!(
+                "{flag} is for pictures; give -o FILE.svg or FILE.png"
+            ))),
+            None => Ok(()),
+        }
     }
-    print(&text)
+
+    fn source(&self, input: Input) -> Result<Source, Failure> {
+        let positions = if self.ecef {
+            Positions::Ecef
+        } else {
+            Positions::AsGiven
+        };
+        Source::open(input, self.edges, positions)
+    }
+
+    fn canvas(&self, source: &Source, frustum: &Frustum) -> Result<Canvas, Failure> {
+        let options = self.pictures.options();
+        let scene = match options.view {
+            View::Outside if !source.is_piped() => Some(source.bounds()?),
+            _ => None,
+        };
+        Canvas::new(options, frustum, scene.as_ref())
+    }
+
+    /// The statistics; on the error stream where the output takes the other.
+    fn tell(&self, report: &Report<'_>) -> Result<(), Failure> {
+        let text = if self.json {
+            format!("{:#}\n", report.to_json())
+        } else {
+            report.to_table()
+        };
+        if self.output.as_deref().is_some_and(is_stream) {
+            say(&text);
+            return Ok(());
+        }
+        print(&text)
+    }
 }
 
 /// The threads that read a mesh.
@@ -183,8 +217,12 @@ Output, whole or not at all
         contain the entry point, the exit point, the whole segment. Numbers read back to the same
         bits. For outside the fields after class are empty.
   .obj  two vertices and a line element for each part; a vertex and a point element for a touch.
-  .svg  what the camera sees, from the near rectangle's side, hidden lines included; places are
-        rounded to a tenth of a pixel, or more where the strokes would be too many for a viewer.
+  .svg .png  a picture; a PNG is the SVG, rasterised. --picture camera: what the camera sees, from
+        the near rectangle's side, hidden lines included. --picture outside: the frustum and the
+        scene around it from the frustum's right, behind and above, in parallel projection; a
+        frustum much deeper than the scene is drawn open, as far as the scene goes. Up to 20,000
+        strokes are drawn one by one. More are summed up by pixel: a place's tone is its rank
+        among all others (histogram equalisation), clipped edges and cut points lie on top.
 
 Statistics (a table, or --json), among others
   filter_failure_share  of the segments, how many had a sign that the floating-point filter left
@@ -210,6 +248,8 @@ Examples
       which edges a default camera takes in; prints the flags that give the same camera again
   frusta clip part.glb --up 0,-1,0 -o view.svg
       a picture, for a model whose y points downwards
+  frusta clip part.glb --picture outside --theme dark -o frustum.png
+      which edges the camera takes in, seen from outside
   frusta clip edges.csv --eye 0,0,5 --target 0,0,0 --near 1 --far inf -o clipped.csv
       every row's part in an infinite frustum
   frusta clip edges.csv --frustum view.json --accuracy inward --json

@@ -82,7 +82,7 @@ impl<T: Scalar> Run<'_, T> {
                 clips.push(clip);
             }
             let clipped = Instant::now();
-            let formatted = self.output.format(first, &clips);
+            let formatted = self.output.format(first, &segments, &clips);
             Ok(Done {
                 formatted,
                 counts,

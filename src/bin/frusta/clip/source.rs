@@ -65,12 +65,17 @@ impl Source {
         })
     }
 
+    /// Whether it can be read only once.
+    pub(super) fn is_piped(&self) -> bool {
+        self.scene.is_none() && self.input.is_piped()
+    }
+
     /// A box around all segments; a stream is read once for it.
     pub(super) fn bounds(&self) -> Result<Bounds, Failure> {
         if let Some(scene) = &self.scene {
             return Ok(scene.bounds());
         }
-        if self.input.is_piped() {
+        if self.is_piped() {
             let why = "it is read once: give the view with --eye and --target, or --frustum";
             return Err(Failure::in_file(self.input.name(), why));
         }

@@ -6,16 +6,15 @@
 pub(crate) mod csv;
 mod glb;
 mod obj;
-mod svg;
-mod thin;
 
 use crate::failure::Failure;
 use crate::number::Scalar;
-use crate::picture::Theme;
+use crate::picture::{self, Canvas, Picture, Theme, Traced};
 use crate::whole_file::{WholeFile, is_stream};
 use clap::ValueEnum;
-use frusta::{Frustum, SegmentClip};
+use frusta::{Frustum, Segment, SegmentClip};
 use std::path::Path;
+use std::sync::Arc;
 
 /// What a worker makes of its results.
 #[derive(Debug, Default)]
@@ -28,8 +27,8 @@ pub(crate) struct Formatted {
     parts: u32,
     /// GLB: points by class, or a coordinate that is too large.
     points_by_class: Option<Result<[glb::Points; 5], f64>>,
-    /// SVG: what to draw.
-    strokes: Vec<thin::Stroke>,
+    /// Pictures: what was drawn.
+    traced: Traced,
 }
 
 /// Kinds of output files.
@@ -44,8 +43,10 @@ pub(crate) enum Kind {
     Obj,
     /// Lines, glTF binary
     Glb,
-    /// A picture
+    /// A picture, vectors
     Svg,
+    /// A picture, pixels
+    Png,
 }
 
 impl Kind {
@@ -70,11 +71,17 @@ impl Kind {
             "obj" => Ok(Self::Obj),
             "glb" => Ok(Self::Glb),
             "svg" => Ok(Self::Svg),
+            "png" => Ok(Self::Png),
             _ => Err(Failure::in_file(
                 file,
-                "unknown kind of output; expected .csv, .obj, .glb or .svg",
+                "unknown kind of output; expected .csv, .obj, .glb, .svg or .png",
             )),
         }
+    }
+
+    /// Whether it is a picture.
+    pub(crate) fn is_picture(self) -> bool {
+        matches!(self, Self::Svg | Self::Png)
     }
 }
 
@@ -89,31 +96,40 @@ pub(crate) enum Format {
     Obj,
     /// A line a part, relative to a centre.
     Glb(glb::Centre),
-    /// What the camera sees.
-    Svg(svg::Projector),
+    /// Drawn.
+    Picture(Arc<Canvas>),
 }
 
 impl Format {
-    /// Formatting for a kind of file and a frustum.
-    pub(crate) fn new(kind: Kind, frustum: &Frustum) -> Self {
-        match kind {
+    /// Formatting for a kind of file; pictures are drawn on what `canvas` gives.
+    pub(crate) fn new(
+        kind: Kind,
+        frustum: &Frustum,
+        canvas: impl FnOnce() -> Result<Canvas, Failure>,
+    ) -> Result<Self, Failure> {
+        Ok(match kind {
             Kind::None => Self::None,
             Kind::Csv => Self::Csv,
             Kind::Obj => Self::Obj,
             Kind::Glb => Self::Glb(glb::Centre::of(frustum)),
-            Kind::Svg => Self::Svg(svg::Projector::new(frustum)),
-        }
+            Kind::Svg | Kind::Png => Self::Picture(Arc::new(canvas()?)),
+        })
     }
 
     /// Formats the results of the segments from number `first` on.
-    pub(crate) fn format<T: Scalar>(&self, first: u64, clips: &[SegmentClip<T>]) -> Formatted {
+    pub(crate) fn format<T: Scalar>(
+        &self,
+        first: u64,
+        segments: &[Segment<T>],
+        clips: &[SegmentClip<T>],
+    ) -> Formatted {
         let mut out = Formatted::default();
         match self {
             Self::None => {}
             Self::Csv => csv::format(first, clips, &mut out.text),
             Self::Obj => obj::format(clips, &mut out),
             Self::Glb(centre) => out.points_by_class = Some(glb::format(centre, clips)),
-            Self::Svg(projector) => svg::format(projector, clips, &mut out.strokes),
+            Self::Picture(canvas) => out.traced = canvas.trace(segments, clips),
         }
         out
     }
@@ -129,13 +145,17 @@ pub(crate) enum Writer {
     Obj(WholeFile, obj::Elements),
     /// Points, kept in files of their own until the end.
     Glb(WholeFile, glb::Model),
-    /// Strokes, kept until the end.
-    Svg(WholeFile, svg::Picture),
+    /// A picture, written at the end.
+    Picture(WholeFile, Kind, Picture),
 }
 
 impl Writer {
     /// Begins a file; it appears under its name only when it is finished.
-    pub(crate) fn create(format: &Format, file: Option<&Path>) -> Result<Self, Failure> {
+    pub(crate) fn create(
+        kind: Kind,
+        format: &Format,
+        file: Option<&Path>,
+    ) -> Result<Self, Failure> {
         let Some(file) = file else {
             return Ok(Self::None);
         };
@@ -151,7 +171,7 @@ impl Writer {
                 Self::Obj(out, obj::Elements::default())
             }
             Format::Glb(centre) => Self::Glb(out, glb::Model::new(*centre)?),
-            Format::Svg(projector) => Self::Svg(out, svg::Picture::new(projector)),
+            Format::Picture(canvas) => Self::Picture(out, kind, Picture::new(canvas.clone())),
         })
     }
 
@@ -171,8 +191,8 @@ impl Writer {
                 ))),
                 None => Ok(()),
             },
-            Self::Svg(_, picture) => {
-                picture.add(&chunk.strokes);
+            Self::Picture(_, _, picture) => {
+                picture.add(&chunk.traced);
                 Ok(())
             }
         }
@@ -192,8 +212,12 @@ impl Writer {
                 model.write(&mut out, title, Theme::Light.palette())?;
                 out.finish()
             }
-            Self::Svg(mut out, picture) => {
-                out.write(picture.draw(title, classes).as_bytes())?;
+            Self::Picture(mut out, kind, picture) => {
+                let svg = picture.svg(title, classes)?;
+                match kind {
+                    Kind::Png => out.write(&picture::png(&svg)?)?,
+                    _ => out.write(svg.as_bytes())?,
+                }
                 out.finish()
             }
         }

@@ -23,6 +23,8 @@ pub(crate) struct Palette {
     pub(crate) page: &'static str,
     /// Behind the strokes.
     pub(crate) paper: &'static str,
+    /// Where strokes are densest.
+    pub(crate) strong: &'static str,
     /// Text and frames.
     pub(crate) ink: &'static str,
     /// Grid lines, hidden lines, remarks.
@@ -38,6 +40,7 @@ pub(crate) struct Palette {
 const LIGHT: Palette = Palette {
     page: "#f4f3ee",
     paper: "#fffefb",
+    strong: "#00060d",
     ink: "#33312c",
     faint: "#b9b6ad",
     classes: ["#9a978f", "#b0578d", "#00805d", "#0072b2", "#d55e00"],
@@ -48,6 +51,7 @@ const LIGHT: Palette = Palette {
 const DARK: Palette = Palette {
     page: "#101216",
     paper: "#191c22",
+    strong: "#ffffff",
     ink: "#dddad2",
     faint: "#4d525c",
     classes: ["#767b86", "#e29cc5", "#2fc29a", "#56b4e9", "#f0a13a"],

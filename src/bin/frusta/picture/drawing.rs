@@ -1,0 +1,210 @@
+//! A picture of segments and what clipping made of them.
+//!
+//! ```text
+//! workers: project each piece; add its ink to the density; hand on the stroke
+//! writer:  collects strokes in order, until there are more than MOST_STROKES
+//! end:     few strokes become vectors, many the density as an embedded image;
+//!          frame, wireframe and caption are vectors in any case
+//! ```
+//!
+//! So that memory has a bound, and the file does not depend on threads.
+
+use super::canvas::{Canvas, DEFAULT_WIDTH, Traced};
+use super::caption::{self, Area, Entry, Sample};
+use super::layer::Layer;
+use super::strokes::{self, STEPS, Stroke};
+use super::wireframe::Wireframe;
+use super::{Palette, Theme, tone};
+use crate::failure::Failure;
+use frusta::Class;
+use std::fmt::Write;
+use std::sync::Arc;
+use std::sync::atomic::Ordering;
+
+/// More are drawn as density.
+const MOST_STROKES: u64 = 20_000;
+/// The least width of the page, in the picture's units.
+const LEAST_WIDTH: f64 = 560.0;
+
+/// A picture in the making.
+pub(crate) struct Picture {
+    canvas: Arc<Canvas>,
+    strokes: Vec<Stroke>,
+    count: u64,
+    cuts: u64,
+}
+
+impl Picture {
+    /// A picture of what will be drawn on a canvas.
+    pub(crate) fn new(canvas: Arc<Canvas>) -> Self {
+        Self {
+            canvas,
+            strokes: Vec::new(),
+            count: 0,
+            cuts: 0,
+        }
+    }
+
+    /// Adds the next chunk's strokes.
+    pub(crate) fn add(&mut self, traced: &Traced) {
+        self.count += traced.count;
+        self.cuts += traced.cuts;
+        if self.is_crowded() {
+            self.canvas.crowded.store(true, Ordering::Relaxed);
+            self.strokes = Vec::new();
+        } else {
+            self.strokes.extend_from_slice(&traced.strokes);
+        }
+    }
+
+    fn is_crowded(&self) -> bool {
+        self.count > MOST_STROKES
+    }
+
+    /// The picture as SVG. `classes`: the number of segments by class.
+    pub(crate) fn svg(&self, title: &str, classes: &[u64; 5]) -> Result<String, Failure> {
+        let Canvas {
+            options,
+            unit,
+            projector,
+            ..
+        } = &*self.canvas;
+        let palette = options.theme.palette();
+        let ([w, h], margin) = (projector.size(), self.canvas.margin());
+        let least = (LEAST_WIDTH / DEFAULT_WIDTH * f64::from(options.width)).round();
+        let page_w = (w + 2.0 * margin).max(least);
+        let left = ((page_w - w) / 2.0).round();
+        let mut text = String::new();
+        let area = Area {
+            left: margin,
+            top: margin + h,
+            room: page_w - 2.0 * margin,
+            unit: *unit,
+        };
+        let entries = self.legend(classes, palette);
+        let bottom = caption::draw(&mut text, title, &entries, palette, area);
+        let page_h = (bottom + 0.5 * margin).ceil();
+        let mut svg = String::new();
+        // Writing into memory cannot fail.
+        let _ = write!(
+            svg,
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{page_w}\" height=\"{page_h}\" \
+             viewBox=\"0 0 {page_w} {page_h}\">\n\
+             <rect width=\"100%\" height=\"100%\" fill=\"{}\"/>\n\
+             <rect x=\"{left}\" y=\"{margin}\" width=\"{w}\" height=\"{h}\" fill=\"{}\"/>\n",
+            palette.page, palette.paper
+        );
+        let _ = writeln!(
+            svg,
+            "<g transform=\"translate({left} {margin})\" fill=\"none\">"
+        );
+        self.draw(&mut svg, palette)?;
+        let _ = writeln!(
+            svg,
+            "</g>\n<rect x=\"{left}\" y=\"{margin}\" width=\"{w}\" height=\"{h}\" fill=\"none\" \
+             stroke=\"{}\" stroke-width=\"{:.1}\"/>",
+            palette.ink,
+            1.5 * unit
+        );
+        svg.push_str(&text);
+        svg.push_str("</svg>\n");
+        Ok(svg)
+    }
+
+    /// Everything within the frame.
+    fn draw(&self, svg: &mut String, palette: &Palette) -> Result<(), Failure> {
+        let canvas = &*self.canvas;
+        let wires = canvas
+            .outside
+            .as_ref()
+            .map(|outside| Wireframe::new(outside, &canvas.projector, palette, canvas.unit));
+        if self.is_crowded() {
+            let [w, h] = canvas.projector.size();
+            let _ = writeln!(
+                svg,
+                "<image width=\"{w}\" height=\"{h}\" href=\"{}\"/>",
+                tone::image(&canvas.density, palette)?
+            );
+        }
+        if let Some(wires) = &wires {
+            wires.draw_faces(svg);
+        }
+        if !self.is_crowded() {
+            let _ = writeln!(
+                svg,
+                "<g transform=\"scale({})\" stroke-linecap=\"round\" stroke-linejoin=\"round\">",
+                1.0 / STEPS
+            );
+            strokes::draw(svg, &self.strokes, palette, canvas.unit);
+            svg.push_str("</g>\n");
+        }
+        if let Some(wires) = &wires {
+            wires.draw_edges(svg);
+        }
+        Ok(())
+    }
+
+    /// What is to be said of each layer.
+    fn legend(&self, classes: &[u64; 5], palette: &Palette) -> Vec<Entry> {
+        let from_outside = self.canvas.outside.is_some();
+        let unit = self.canvas.unit;
+        let line =
+            |layer: Layer| Sample::Line(strokes::attributes(layer.style(palette), 1.8 * unit));
+        let mut entries = Vec::new();
+        for (class, count) in Class::ALL.into_iter().zip(classes) {
+            let layer = Layer::of(class);
+            let style = layer.style(palette);
+            let sample = match layer {
+                Layer::Touch => {
+                    Sample::Circle(format!("r=\"{:.1}\" fill=\"{}\"", 4.0 * unit, style.colour))
+                }
+                Layer::Outside if !from_outside => Sample::Nothing,
+                _ => line(layer),
+            };
+            entries.push(Entry {
+                sample,
+                name: (layer.name(), style.colour),
+                text: count.to_string(),
+            });
+        }
+        if from_outside && self.cuts > 0 {
+            entries.push(Entry {
+                sample: line(Layer::Rest),
+                name: ("", ""),
+                text: "cut away".to_owned(),
+            });
+        }
+        if self.cuts > 0 {
+            entries.push(Entry {
+                sample: Sample::Circle(format!(
+                    "r=\"{:.1}\" fill=\"{}\" stroke=\"{}\" stroke-width=\"{:.1}\"",
+                    4.0 * unit,
+                    palette.paper,
+                    palette.cut,
+                    1.5 * unit
+                )),
+                name: ("cut points", palette.cut),
+                text: self.cuts.to_string(),
+            });
+        }
+        if self.is_crowded() {
+            entries.push(self.density_note(palette));
+        }
+        entries
+    }
+
+    fn density_note(&self, palette: &Palette) -> Entry {
+        let stronger = match self.canvas.options.theme {
+            Theme::Light => "darker",
+            Theme::Dark => "brighter",
+        };
+        Entry {
+            sample: Sample::Ramp(tone::samples(Layer::Inside, palette, 12)),
+            name: ("", ""),
+            text: match self.canvas.outside {
+                None => format!("density: {stronger} = more edges, or nearer"),
+                Some(_) => format!("density: {stronger} = more edges"),
+            },
+        }
+    }
+}
