@@ -40,6 +40,8 @@ pub(crate) struct Canvas {
 pub(crate) struct Traced {
     /// Empty once there are too many.
     pub(super) strokes: Vec<Stroke>,
+    /// Of these the marks; kept as long as they are few.
+    pub(super) marks: Vec<Stroke>,
     /// How many there were, kept or not; of these, marks at clipped ends.
     pub(super) count: u64,
     pub(super) cuts: u64,
@@ -192,12 +194,14 @@ impl Pen<'_> {
         self.canvas.density.disc(layer, place, radius);
         self.traced.count += 1;
         self.traced.cuts += cuts;
+        let mark = Stroke {
+            layer,
+            from: place,
+            to: place,
+        };
         if self.keep {
-            self.traced.strokes.push(Stroke {
-                layer,
-                from: place,
-                to: place,
-            });
+            self.traced.strokes.push(mark);
         }
+        self.traced.marks.push(mark);
     }
 }

@@ -4,7 +4,7 @@
 //! workers: project each piece; add its ink to the density; hand on the stroke
 //! writer:  collects strokes in order, until there are more than MOST_STROKES
 //! end:     few strokes become vectors, many the density as an embedded image;
-//!          frame, wireframe and caption are vectors in any case
+//!          few marks, frame, wireframe and caption are vectors in any case
 //! ```
 //!
 //! So that memory has a bound, and the file does not depend on threads.
@@ -23,6 +23,8 @@ use std::sync::atomic::Ordering;
 
 /// More are drawn as density.
 const MOST_STROKES: u64 = 20_000;
+/// More marks on a density would hide it.
+const MOST_MARKS: usize = 400;
 /// The least width of the page, in the picture's units.
 const LEAST_WIDTH: f64 = 560.0;
 
@@ -30,6 +32,8 @@ const LEAST_WIDTH: f64 = 560.0;
 pub(crate) struct Picture {
     canvas: Arc<Canvas>,
     strokes: Vec<Stroke>,
+    /// `None` once there are too many.
+    marks: Option<Vec<Stroke>>,
     count: u64,
     cuts: u64,
 }
@@ -40,6 +44,7 @@ impl Picture {
         Self {
             canvas,
             strokes: Vec::new(),
+            marks: Some(Vec::new()),
             count: 0,
             cuts: 0,
         }
@@ -54,6 +59,11 @@ impl Picture {
             self.strokes = Vec::new();
         } else {
             self.strokes.extend_from_slice(&traced.strokes);
+        }
+        let room = |marks: &Vec<Stroke>| marks.len() + traced.marks.len() <= MOST_MARKS;
+        self.marks = self.marks.take().filter(room);
+        if let Some(marks) = &mut self.marks {
+            marks.extend_from_slice(&traced.marks);
         }
     }
 
@@ -129,15 +139,18 @@ impl Picture {
         if let Some(wires) = &wires {
             wires.draw_faces(svg);
         }
-        if !self.is_crowded() {
-            let _ = writeln!(
-                svg,
-                "<g transform=\"scale({})\" stroke-linecap=\"round\" stroke-linejoin=\"round\">",
-                1.0 / STEPS
-            );
-            strokes::draw(svg, &self.strokes, palette, canvas.unit);
-            svg.push_str("</g>\n");
-        }
+        let vectors = if self.is_crowded() {
+            self.marks.as_deref().unwrap_or_default()
+        } else {
+            &self.strokes
+        };
+        let _ = writeln!(
+            svg,
+            "<g transform=\"scale({})\" stroke-linecap=\"round\" stroke-linejoin=\"round\">",
+            1.0 / STEPS
+        );
+        strokes::draw(svg, vectors, palette, canvas.unit);
+        svg.push_str("</g>\n");
         if let Some(wires) = &wires {
             wires.draw_edges(svg);
         }
