@@ -1,11 +1,12 @@
 //! `frusta clip`: the part of each of a file's segments that is in a frustum.
 //!
 //! ```text
-//! reader:  numbers of the scene's edges, or rows of a CSV file, in chunks
-//! workers: edges to world coordinates; clip; count; format
+//! reader:  numbers of the scene's edges, rows of a CSV file as text, or segments, in chunks
+//! workers: edges to world coordinates, or rows to segments; clip; count; format
 //! writer:  the formatted chunks, in order
 //! ```
 
+mod help;
 mod run;
 mod source;
 
@@ -23,6 +24,7 @@ use crate::view::ViewArgs;
 use crate::whole_file::is_stream;
 use clap::{Args, ValueEnum};
 use frusta::Frustum;
+use help::{FORMATS, HELP_END};
 use run::Run;
 use source::Source;
 use std::path::PathBuf;
@@ -194,65 +196,3 @@ fn threads_of(count: usize) -> Result<rayon::ThreadPool, Failure> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(count).build();
     pool.map_err(|e| Failure::new(format_args!("threads: {e}")))
 }
-
-/// The end of `-h`.
-const HELP_END: &str = "More with --help: formats, examples, exit codes.";
-
-/// The end of `--help`, but for the exit codes.
-const FORMATS: &str = "\
-Input
-  .glb .gltf  The default scene's line (mode 1 to 3) or triangle (mode 4 to 6) primitives through
-              all node transforms, composed in double precision. Sparse accessors, quantized
-              positions, data URIs and buffer files work; skins and morph targets are not applied.
-  .obj        v, l and f. A polygon counts as its outline.
-  .csv        x0,y0,z0,x1,y1,z1, decimal or hexadecimal (0x1.8p-3); read as a stream. With a header
-              the columns are found by name among others. Lines that begin with # are comments.
-  With --edges triangles each edge of a mesh comes once, wherever its vertices are split.
-  A coordinate that is infinite or NaN is an error.
-
-Output, whole or not at all
-  .csv  index,class,t0,t1,x0,y0,z0,x1,y1,z1,enter,leave,coplanar; a row a segment, in the input's
-        order. class: outside, touch, boundary, inside or cross; t0..t1: the part's parameters;
-        enter, leave, coplanar: faces joined by + (near far left right bottom top) whose planes
-        contain the entry point, the exit point, the whole segment. Numbers read back to the same
-        bits. For outside the fields after class are empty.
-  .obj  two vertices and a line element for each part; a vertex and a point element for a touch.
-  .svg .png  a picture; a PNG is the SVG, rasterised. --picture camera: what the camera sees, from
-        the near rectangle's side, hidden lines included. --picture outside: the frustum and the
-        scene around it from the frustum's right, behind and above, in parallel projection; a
-        frustum much deeper than the scene is drawn open, as far as the scene goes. Up to 20,000
-        strokes are drawn one by one. More are summed up by pixel: a place's tone is its rank
-        among all others (histogram equalisation), clipped edges and cut points lie on top.
-
-Statistics (a table, or --json), among others
-  filter_failure_share  of the segments, how many had a sign that the floating-point filter left
-        open, whichever later stage settled it, double-double included. stages has their number,
-        and how many signs and values each later stage gave. Null for --arithmetic plain.
-  not_inward  clipped points that are not proven inside: all, but for --accuracy inward.
-  view.deviation  of a frustum from a matrix: by how much its vertices miss the matrix's exact clip
-        volume; sides in X / W and Y / W, near and far as fractions of their distances.
-
-Frustum files (--frustum); any number may be a text with a hexadecimal float
-  {\"origin\":[0,0,0], \"axes\":[[1,0,0],[0,1,0],[0,0,1]],
-   \"near\":{\"z\":-1,\"left\":-1,\"right\":1,\"bottom\":-1,\"top\":1}, \"far\":{...}}
-  the same with \"slopes\":{\"left\":-1,\"right\":1,\"bottom\":-1,\"top\":1}, \"direction\":1 instead of
-   \"far\": no far face; the sides' bounds change by the slopes for each unit of depth
-  {\"eye\":[0,0,5], \"target\":[0,0,0], \"up\":[0,1,0], \"fovy_deg\":45 or \"ortho_height\":2,
-   \"aspect\":1.5, \"near\":0.1, \"far\":100 or \"inf\"}
-  {\"matrix\":[16 numbers], \"layout\":\"column-major\" or \"row-major\", \"depth\":\"0..1\" or \"-1..1\",
-   \"reversed\":false, \"y\":\"up\" or \"down\", \"precision\":\"f64\" or \"f32\"}: view and projection,
-   for column vectors; the last three keys may be left out
-
-Examples
-  frusta clip part.glb
-      which edges a default camera takes in; prints the flags that give the same camera again
-  frusta clip part.glb --up 0,-1,0 -o view.svg
-      a picture, for a model whose y points downwards
-  frusta clip part.glb --picture outside --theme dark -o frustum.png
-      which edges the camera takes in, seen from outside
-  frusta clip edges.csv --eye 0,0,5 --target 0,0,0 --near 1 --far inf -o clipped.csv
-      every row's part in an infinite frustum
-  frusta clip edges.csv --frustum view.json --accuracy inward --json
-      statistics, with clipped points that are never outside, where any representable point near
-      is inside; the rest are counted (not_inward)
-";
