@@ -112,16 +112,32 @@ fn numbers_read_back_to_the_same_bits() {
 #[test]
 fn the_number_of_threads_does_not_show() {
     let folder = Folder::new();
-    let file = fixture("6814_ice_tunnelator.glb");
-    for extension in ["csv", "obj"] {
-        let contents = ["1", "2", "5"].map(|threads| {
-            let out = folder.name(&format!("out.{extension}"));
-            let run = clip([&file, "--threads", threads, "-o", &out]);
-            assert!(run.status.success(), "{}", text(&run.stderr));
-            folder.read(&format!("out.{extension}"))
-        });
-        assert!(contents[0].len() > 10_000);
-        assert!(contents.iter().all(|c| *c == contents[0]), "{extension}");
+    let rows: String = (0..20_000)
+        .map(|i| format!("{},{},-3,{},1,{}\n", i % 17, i % 11, i % 13, i % 23))
+        .collect();
+    let points: Vec<String> = (0..20_000)
+        .map(|i| format!("[{}, {}]", i % 17, i % 11))
+        .collect();
+    let line = format!(
+        "{{\"type\": \"LineString\", \"coordinates\": [{}]}}",
+        points.join(",")
+    );
+    let files = [
+        fixture("6814_ice_tunnelator.glb"),
+        folder.write("rows.csv", rows),
+        folder.write("line.geojson", line),
+    ];
+    for file in &files {
+        for extension in ["csv", "obj", "glb", "svg"] {
+            let contents = ["1", "2", "5"].map(|threads| {
+                let out = folder.name(&format!("out.{extension}"));
+                let run = clip([file, "--threads", threads, "-o", &out]);
+                assert!(run.status.success(), "{}", text(&run.stderr));
+                std::fs::read(out).unwrap()
+            });
+            assert!(contents[0].len() > 10_000);
+            assert!(contents.iter().all(|c| *c == contents[0]), "{extension}");
+        }
     }
 }
 
