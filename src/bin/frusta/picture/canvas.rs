@@ -1,6 +1,6 @@
-//! Drawing what clipping made of segments, by many workers at a time.
+//! Where what clipping made of segments goes in a picture, by many workers at a
+//! time.
 
-use super::density::Density;
 use super::layer::Layer;
 use super::options::{Options, View};
 use super::outside::Outside;
@@ -10,7 +10,6 @@ use crate::failure::Failure;
 use crate::input::Bounds;
 use crate::number::Scalar;
 use frusta::{Class, Frustum, Segment, SegmentClip, Vec3};
-use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Around the drawing, and the width that is meant, in the picture's units
 /// (pixels of a picture of the default width).
@@ -18,11 +17,8 @@ const MARGIN: f64 = 28.0;
 pub(super) const DEFAULT_WIDTH: f64 = 1200.0;
 /// Text stays this large, of its size in a picture of the default width.
 const LEAST_UNIT: f64 = 0.5;
-/// Marks in a density picture, in the picture's units.
-const CUT_RADIUS: f64 = 0.75;
-const TOUCH_RADIUS: f64 = 2.6;
 
-/// What all workers draw on.
+/// What all workers draw for.
 #[derive(Debug)]
 pub(crate) struct Canvas {
     pub(super) options: Options,
@@ -30,21 +26,12 @@ pub(crate) struct Canvas {
     pub(super) unit: f64,
     pub(super) projector: Projector,
     pub(super) outside: Option<Outside>,
-    pub(super) density: Density,
-    /// Whether there are too many strokes to keep.
-    pub(super) crowded: AtomicBool,
 }
 
 /// What a worker drew of its chunk.
 #[derive(Debug, Default)]
 pub(crate) struct Traced {
-    /// Empty once there are too many.
     pub(super) strokes: Vec<Stroke>,
-    /// Of these the marks; kept as long as they are few.
-    pub(super) marks: Vec<Stroke>,
-    /// How many there were, kept or not; of these, marks at clipped ends.
-    pub(super) count: u64,
-    pub(super) cuts: u64,
 }
 
 impl Canvas {
@@ -66,10 +53,8 @@ impl Canvas {
         Ok(Self {
             options,
             unit,
-            density: Density::new(projector.size().map(|s| s as usize)),
             projector,
             outside,
-            crowded: AtomicBool::new(false),
         })
     }
 
@@ -86,7 +71,6 @@ impl Canvas {
     ) -> Traced {
         let mut pen = Pen {
             canvas: self,
-            keep: !self.crowded.load(Ordering::Relaxed),
             traced: Traced::default(),
         };
         match &self.outside {
@@ -103,7 +87,6 @@ impl Canvas {
 /// Draws on a canvas.
 struct Pen<'a> {
     canvas: &'a Canvas,
-    keep: bool,
     traced: Traced,
 }
 
@@ -167,41 +150,26 @@ impl Pen<'_> {
     }
 
     fn line(&mut self, layer: Layer, a: Vec3<f64>, b: Vec3<f64>) {
-        let Self {
-            canvas,
-            keep,
-            traced,
-        } = self;
         // Rare layers are seen at any depth.
-        let by_depth = layer == Layer::Inside && canvas.outside.is_none();
-        canvas.projector.pieces(a, b, |from, to, weight| {
-            let weight = if by_depth { weight } else { 1.0 };
-            canvas.density.line(layer, from, to, weight);
-            traced.count += 1;
-            if *keep {
-                traced.strokes.push(Stroke { layer, from, to });
-            }
+        let by_depth = layer == Layer::Inside && self.canvas.outside.is_none();
+        let strokes = &mut self.traced.strokes;
+        self.canvas.projector.pieces(a, b, |from, to, weight| {
+            strokes.push(Stroke {
+                layer,
+                from,
+                to,
+                weight: if by_depth { weight } else { 1.0 },
+            });
         });
     }
 
     fn mark(&mut self, layer: Layer, point: Vec3<f64>) {
         let place = self.canvas.projector.place(point);
-        let (radius, cuts) = match layer {
-            Layer::Touch => (TOUCH_RADIUS, 0),
-            _ => (CUT_RADIUS, 1),
-        };
-        let radius = (radius * self.canvas.unit) as f32;
-        self.canvas.density.disc(layer, place, radius);
-        self.traced.count += 1;
-        self.traced.cuts += cuts;
-        let mark = Stroke {
+        self.traced.strokes.push(Stroke {
             layer,
             from: place,
             to: place,
-        };
-        if self.keep {
-            self.traced.strokes.push(mark);
-        }
-        self.traced.marks.push(mark);
+            weight: 1.0,
+        });
     }
 }

@@ -1,8 +1,9 @@
 //! A picture of segments and what clipping made of them.
 //!
 //! ```text
-//! workers: project each piece; add its ink to the density; hand on the stroke
-//! writer:  collects strokes in order, until there are more than MOST_STROKES
+//! workers: project each piece; hand on the strokes
+//! writer:  collects strokes in order; once there are more than MOST_STROKES, adds
+//!          their ink to the density instead
 //! end:     few strokes become vectors, many the density as an embedded image;
 //!          few marks, frame, wireframe and caption are vectors in any case
 //! ```
@@ -11,6 +12,7 @@
 
 use super::canvas::{Canvas, DEFAULT_WIDTH, Traced};
 use super::caption::{self, Area, Entry, Sample};
+use super::density::Density;
 use super::layer::Layer;
 use super::strokes::{self, STEPS, Stroke};
 use super::wireframe::Wireframe;
@@ -19,19 +21,23 @@ use crate::failure::Failure;
 use frusta::Class;
 use std::fmt::Write;
 use std::sync::Arc;
-use std::sync::atomic::Ordering;
 
 /// More are drawn as density.
 const MOST_STROKES: u64 = 20_000;
 /// More marks on a density would hide it.
 const MOST_MARKS: usize = 400;
+/// Marks on a density, in the picture's units.
+const CUT_RADIUS: f64 = 0.75;
+const TOUCH_RADIUS: f64 = 2.6;
 /// The least width of the page, in the picture's units.
 const LEAST_WIDTH: f64 = 560.0;
 
 /// A picture in the making.
 pub(crate) struct Picture {
     canvas: Arc<Canvas>,
+    /// Empty once there are too many: then all are in the density.
     strokes: Vec<Stroke>,
+    density: Density,
     /// `None` once there are too many.
     marks: Option<Vec<Stroke>>,
     count: u64,
@@ -42,6 +48,7 @@ impl Picture {
     /// A picture of what will be drawn on a canvas.
     pub(crate) fn new(canvas: Arc<Canvas>) -> Self {
         Self {
+            density: Density::new(canvas.projector.size().map(|s| s as usize)),
             canvas,
             strokes: Vec::new(),
             marks: Some(Vec::new()),
@@ -52,19 +59,37 @@ impl Picture {
 
     /// Adds the next chunk's strokes.
     pub(crate) fn add(&mut self, traced: &Traced) {
-        self.count += traced.count;
-        self.cuts += traced.cuts;
-        if self.is_crowded() {
-            self.canvas.crowded.store(true, Ordering::Relaxed);
-            self.strokes = Vec::new();
-        } else {
-            self.strokes.extend_from_slice(&traced.strokes);
-        }
-        let room = |marks: &Vec<Stroke>| marks.len() + traced.marks.len() <= MOST_MARKS;
+        let is_mark = |s: &&Stroke| matches!(s.layer, Layer::Cut | Layer::Touch);
+        let marks = || traced.strokes.iter().filter(is_mark);
+        self.count += traced.strokes.len() as u64;
+        self.cuts += marks().filter(|s| s.layer == Layer::Cut).count() as u64;
+        let room = |kept: &Vec<Stroke>| kept.len() + marks().count() <= MOST_MARKS;
         self.marks = self.marks.take().filter(room);
-        if let Some(marks) = &mut self.marks {
-            marks.extend_from_slice(&traced.marks);
+        if let Some(kept) = &mut self.marks {
+            kept.extend(marks());
         }
+        self.strokes.extend_from_slice(&traced.strokes);
+        if self.is_crowded() {
+            for stroke in std::mem::take(&mut self.strokes) {
+                self.ink(&stroke);
+            }
+        }
+    }
+
+    /// Adds a stroke to the density.
+    fn ink(&mut self, stroke: &Stroke) {
+        let radius = match stroke.layer {
+            Layer::Touch => TOUCH_RADIUS,
+            Layer::Cut => CUT_RADIUS,
+            layer => {
+                let Stroke {
+                    from, to, weight, ..
+                } = *stroke;
+                return self.density.line(layer, from, to, weight);
+            }
+        };
+        let radius = (radius * self.canvas.unit) as f32;
+        self.density.disc(stroke.layer, stroke.from, radius);
     }
 
     fn is_crowded(&self) -> bool {
@@ -133,7 +158,7 @@ impl Picture {
             let _ = writeln!(
                 svg,
                 "<image width=\"{w}\" height=\"{h}\" href=\"{}\"/>",
-                tone::image(&canvas.density, palette)?
+                tone::image(&self.density, palette)?
             );
         }
         if let Some(wires) = &wires {

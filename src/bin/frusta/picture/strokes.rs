@@ -14,6 +14,8 @@ pub(super) struct Stroke {
     pub(super) layer: Layer,
     pub(super) from: Place,
     pub(super) to: Place,
+    /// How much ink it leaves on a density, at most 1.
+    pub(super) weight: f32,
 }
 
 /// Pixels: thick enough to see a few strokes, thin enough to part many.
