@@ -169,7 +169,8 @@ impl Parameters {
     }
 
     /// A camera above a place of the earth, with north up in the picture. Its far
-    /// face lies in the plane of the horizon, and its sides take all of that in.
+    /// face lies in the plane of the horizon, and its sides take all of that in, but
+    /// from less than 25 km up, where 170 degrees are not enough.
     fn over(place: Vec3<f64>) -> Result<Self, Failure> {
         let fail = |why: &str| Failure::new(format_args!("--over: {why}"));
         let eye = wgs84::ecef(place.x, place.y, place.z).map_err(|why| fail(&why))?;
