@@ -80,6 +80,7 @@ fn a_page_holds_the_help_line_by_line() {
 fn no_line_of_a_help_is_taken_for_a_request() {
     let page = succeed(&["man", "clip"]);
     let (_, end) = page.split_once(".SH \"INPUT\"").unwrap();
+    assert!(end.contains("\n.SH \"OUTPUT\"\n"), "{end}");
     for line in end.lines().filter(|line| line.starts_with(['.', '\''])) {
         let known = [".nf", ".fi"].contains(&line) || line.starts_with(".SH \"");
         assert!(known, "{line:?}");

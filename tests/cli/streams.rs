@@ -191,3 +191,19 @@ fn a_full_disk_leaves_no_file() {
         assert_eq!(clip(args).status.code(), Some(code), "{device}");
     }
 }
+
+/// Where a link leads to is written, and the link stays.
+#[cfg(unix)]
+#[test]
+fn a_link_stays_a_link() {
+    let folder = Folder::new();
+    let rows = folder.write("a.csv", "0,0,0,1,1,1\n");
+    folder.write("real.csv", "older\n");
+    std::os::unix::fs::symlink("real.csv", folder.path("link.csv")).unwrap();
+    let link = folder.name("link.csv");
+    let run = clip([&[rows.as_str(), "-o", &link], &WIDE[..]].concat());
+    assert!(run.status.success(), "{}", text(&run.stderr));
+    assert!(folder.path("link.csv").is_symlink());
+    assert!(folder.read("real.csv").starts_with("index,"));
+    assert_eq!(folder.files(), ["a.csv", "link.csv", "real.csv"]);
+}

@@ -173,3 +173,23 @@ fn a_camera_is_chosen_for_scenes_of_any_size() {
     assert_eq!(found.status.code(), Some(2));
     assert!(text(&found.stderr).contains("give --eye and --target"));
 }
+
+#[test]
+fn numbers_of_the_lens_are_told_as_they_were_given() {
+    for (flags, part) in [
+        (
+            ["--fovy", "200"],
+            "--fovy is 200; it must be between 0 and 180",
+        ),
+        (["--fovy", "0"], "--fovy is 0; it must be"),
+        (["--fovy", "-3"], "--fovy is -3; it must be"),
+        (["--ortho", "-3"], "height is -3; it must be"),
+        (["--aspect", "-3"], "aspect is -3; it must be"),
+    ] {
+        let run = clip([fixture("six.csv").as_str()].into_iter().chain(flags));
+        assert_eq!(run.status.code(), Some(2), "{flags:?}");
+        let message = text(&run.stderr);
+        assert_eq!(message.lines().count(), 1, "{message}");
+        assert!(message.contains(part), "{message}");
+    }
+}

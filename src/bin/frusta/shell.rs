@@ -8,7 +8,6 @@ use crate::terminal::print;
 use crate::whole_file::WholeFile;
 use clap::{Args, Command, CommandFactory};
 use clap_complete::Shell;
-
 use std::path::PathBuf;
 
 /// Write a script that completes frusta's commands and options in a shell
@@ -27,7 +26,7 @@ pub(crate) struct ManArgs {
     #[arg(value_name = "COMMAND")]
     path: Vec<String>,
     /// Write the pages of all commands to this folder instead; made if there is none
-    #[arg(long, value_name = "DIR", conflicts_with = "path")]
+    #[arg(short, long, value_name = "DIR", conflicts_with = "path")]
     output: Option<PathBuf>,
 }
 

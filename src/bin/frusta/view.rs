@@ -28,13 +28,13 @@ pub(crate) struct ViewArgs {
     #[arg(requires = "ecef", conflicts_with_all = ["eye", "target", "up", "ortho"])]
     over: Option<Vec3<f64>>,
     /// Full vertical angle of view [default: 30]
-    #[arg(long, value_name = "DEGREES", value_parser = finite, conflicts_with = "ortho")]
+    #[arg(long, value_name = "DEGREES", value_parser = finite, conflicts_with = "ortho", allow_hyphen_values = true)]
     fovy: Option<f64>,
     /// Parallel projection of this full height instead of perspective
-    #[arg(long, value_name = "HEIGHT", value_parser = finite)]
+    #[arg(long, value_name = "HEIGHT", value_parser = finite, allow_hyphen_values = true)]
     ortho: Option<f64>,
     /// Width over height [default: 1.5]
-    #[arg(long, value_name = "RATIO", value_parser = finite)]
+    #[arg(long, value_name = "RATIO", value_parser = finite, allow_hyphen_values = true)]
     aspect: Option<f64>,
     /// Distance of the near face [default: a hundredth of the target's]
     #[arg(long, value_name = "DISTANCE", value_parser = finite, allow_hyphen_values = true)]
@@ -87,6 +87,11 @@ impl ViewArgs {
             (None, eye, target) => (Parameters::around(&bounds()?, eye, target, up)?, true),
         };
         if let Some(fovy) = self.fovy {
+            // The library's own message is in radians.
+            if !(fovy > 0.0 && fovy < 180.0) {
+                let why = format_args!("--fovy is {}; it must be between 0 and 180", short(fovy));
+                return Err(Failure::new(why));
+            }
             parameters.lens = Lens::Fovy(fovy);
         }
         if let Some(height) = self.ortho {
@@ -164,7 +169,8 @@ impl Parameters {
     }
 
     /// A camera above a place of the earth, with north up in the picture. Its far
-    /// face lies in the plane of the horizon, and its sides take all of that in.
+    /// face lies in the plane of the horizon, and its sides take all of that in, but
+    /// from less than 25 km up, where 170 degrees are not enough.
     fn over(place: Vec3<f64>) -> Result<Self, Failure> {
         let fail = |why: &str| Failure::new(format_args!("--over: {why}"));
         let eye = wgs84::ecef(place.x, place.y, place.z).map_err(|why| fail(&why))?;

@@ -28,21 +28,22 @@ pub(crate) struct WholeFile {
 }
 
 enum Target {
-    File(NamedTempFile),
+    /// And where it goes.
+    File(NamedTempFile, PathBuf),
     Stream(Box<dyn Write>),
 }
 
 impl Write for Target {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         match self {
-            Self::File(file) => file.as_file_mut().write(bytes),
+            Self::File(file, _) => file.as_file_mut().write(bytes),
             Self::Stream(stream) => stream.write(bytes),
         }
     }
 
     fn flush(&mut self) -> io::Result<()> {
         match self {
-            Self::File(file) => file.as_file_mut().flush(),
+            Self::File(file, _) => file.as_file_mut().flush(),
             Self::Stream(stream) => stream.flush(),
         }
     }
@@ -65,7 +66,9 @@ impl WholeFile {
             let device = device.map_err(|e| failure(path, &e))?;
             (path, Target::Stream(Box::new(device)))
         } else {
-            (path, Target::File(temporary(path)?))
+            // A rename would put the file in a link's place; it belongs where that leads.
+            let place = path.canonicalize().unwrap_or_else(|_| path.to_owned());
+            (path, Target::File(temporary(path, &place)?, place))
         };
         Ok(Self {
             path: path.to_owned(),
@@ -89,10 +92,10 @@ impl WholeFile {
         let fail = |e: &io::Error| failure(&self.path, e);
         out.flush().map_err(|e| fail(&e))?;
         match out.into_inner() {
-            Ok(Target::File(file)) => {
+            Ok(Target::File(file, place)) => {
                 let mut unfinished = UNFINISHED.lock().unwrap_or_else(PoisonError::into_inner);
                 let temporary = file.path().to_owned();
-                file.persist(&self.path).map_err(|e| fail(&e.error))?;
+                file.persist(&place).map_err(|e| fail(&e.error))?;
                 unfinished.retain(|path| *path != temporary);
                 Ok(())
             }
@@ -118,11 +121,12 @@ pub(crate) fn watch_for_interruption() {
     drop(set);
 }
 
-fn temporary(path: &Path) -> Result<NamedTempFile, Failure> {
+/// Beside `place`, which people call `path`.
+fn temporary(path: &Path, place: &Path) -> Result<NamedTempFile, Failure> {
     if path.is_dir() {
         return Err(Failure::in_file(path, "cannot be written: it is a folder"));
     }
-    let folder = match path.parent() {
+    let folder = match place.parent() {
         Some(folder) if !folder.as_os_str().is_empty() => folder,
         _ => Path::new("."),
     };

@@ -5,7 +5,8 @@ pub(super) const HELP_END: &str = "More with --help: formats, examples, exit cod
 
 /// The end of `--help`, but for the exit codes.
 pub(super) const FORMATS: &str = "\
-Input: a file, told by its name or --from, or - for the standard input
+Input
+  A file, told by its name or --from, or - for the standard input.
   .glb .gltf  The default scene's line (mode 1 to 3) or triangle (mode 4 to 6) primitives through
               all node transforms, composed in double precision. Sparse accessors, quantized
               positions, data URIs and buffer files work; skins and morph targets are not applied.
@@ -28,10 +29,13 @@ The earth (--ecef)
   From above, the earth's far side is in front of a camera, too, and only a far face cuts it off.
   --over LON,LAT,HEIGHT is a camera that looks down from a place in degrees and metres, north
   upwards, against the normal of the plane through its horizon. That plane is its far face: what is
-  inside is this side of the horizon, and all of that. --fovy, --aspect, --near and --far change it.
+  inside is this side of the horizon, and all of that; from less than 25 km up the sides, at most
+  170 degrees apart, cut some of it off. --fovy, --aspect, --near and --far change the camera.
 
-Output: a file, told by its name or --to, or - for the standard output. Whole or not at all: it is
-written beside and renamed, also when the run fails or is interrupted; not so devices and pipes.
+Output
+  A file, told by its name or --to, or - for the standard output; with that the statistics go to the
+  error stream. Whole or not at all: it is written beside and renamed, also when the run fails or is
+  interrupted; not so devices and pipes.
   .csv  index,class,t0,t1,x0,y0,z0,x1,y1,z1,enter,leave,coplanar; a row a segment, in the input's
         order. class: outside, touch, boundary, inside or cross; t0..t1: the part's parameters;
         enter, leave, coplanar: faces joined by + (near far left right bottom top) whose planes
@@ -43,8 +47,9 @@ written beside and renamed, also when the run fails or is interrupted; not so de
   .svg .png  a picture; a PNG is the SVG, rasterised. --picture camera: what the camera sees, from
         the near rectangle's side, hidden lines included. --picture outside: the frustum and the
         scene around it from the frustum's right, behind and above, in parallel projection; a
-        frustum much deeper than the scene is drawn open, as far as the scene goes. Up to 20,000
-        strokes are drawn one by one. More are summed up by pixel: a place's tone is its rank
+        frustum much deeper than the scene is drawn open, as far as the scene goes. A view more than
+        8 times as wide as high, or as high as wide, is squeezed to that. Up to 20,000 strokes are
+        drawn one by one. More are summed up by pixel: a place's tone is its rank
         among all others (histogram equalisation), clipped edges and cut points lie on top.
 
 Statistics (a table, or --json), among others

@@ -48,7 +48,7 @@ pub(crate) struct ClipArgs {
     /// The output's format [default: by its name]
     #[arg(long, value_name = "FORMAT")]
     to: Option<Kind>,
-    /// Statistics as JSON on the standard output
+    /// Statistics as JSON on the standard output; with -o -, on the error stream
     #[arg(long)]
     json: bool,
     /// Edges to take from a mesh [default: lines if the file has any, else triangles]

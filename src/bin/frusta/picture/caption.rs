@@ -158,9 +158,11 @@ fn wrapped(text: &str, most: usize) -> Vec<String> {
     lines
 }
 
-/// Text between tags; control characters, which XML has none of, become spaces.
+/// Text between tags; control characters and noncharacters, which XML has none of,
+/// become spaces.
 fn escaped(text: &str) -> String {
-    text.replace(char::is_control, " ")
+    let is_none = |c: char| c.is_control() || matches!(c, '\u{fffe}' | '\u{ffff}');
+    text.replace(is_none, " ")
         .replace('&', "&amp;")
         .replace('<', "&lt;")
         .replace('>', "&gt;")
@@ -183,6 +185,6 @@ mod tests {
 
     #[test]
     fn text_is_escaped() {
-        assert_eq!(escaped("a<b>&\u{7}c"), "a&lt;b&gt;&amp; c");
+        assert_eq!(escaped("a<b>&\u{7}c\u{ffff}"), "a&lt;b&gt;&amp; c ");
     }
 }

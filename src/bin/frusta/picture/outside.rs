@@ -7,8 +7,8 @@
 //! view.
 //!
 //! ```text
-//! solid:  the frustum's two ends, the far one where the scene ends if the frustum
-//!         goes on far beyond; the apex of its sides
+//! solid:  the frustum's two ends, the far one where the scene ends, but as deep as wide,
+//!         if the frustum goes on far beyond; the apex of its sides
 //! axes:   from the solid's own right, up and forward
 //! window: all of the solid, and of the scene's box what is within twice
 //!         the solid's size
@@ -98,7 +98,9 @@ impl Solid {
             .and_then(|scene| {
                 let depths = scene.map(|p| sides.depth_of(pose.to_frame(p)));
                 let deepest = depths.into_iter().fold(f64::MIN, f64::max);
-                (deepest.is_finite() && deepest > 0.0).then_some(1.02 * deepest)
+                // A much shallower solid looks like a sheet.
+                let least = least_depth(pose, sides.width());
+                (deepest.is_finite() && deepest > 0.0).then_some((1.02 * deepest).max(least))
             })
             .unwrap_or_else(|| sides.usual_depth(apex_depth));
         let open = sides.depth > ENDLESS * reach;
@@ -177,20 +179,31 @@ impl Sides {
         (same && x < 0.0 && x.is_finite()).then_some(0.5 * (x + y))
     }
 
+    /// The near end's larger side.
+    fn width(&self) -> f64 {
+        let [left, right, bottom, top] = self.near.rect.to_array();
+        (right - left).max(top - bottom)
+    }
+
     /// A depth to draw where nothing says where the scene is.
     fn usual_depth(&self, apex: Option<f64>) -> f64 {
         if self.depth.is_finite() {
             return self.depth;
         }
-        let [left, right, bottom, top] = self.near.rect.to_array();
-        let size = (right - left).max(top - bottom);
-        let depth = apex.map_or(2.0 * size, |apex| -4.0 * apex);
+        let depth = apex.map_or(2.0 * self.width(), |apex| -4.0 * apex);
         if depth > 0.0 && depth.is_finite() {
             depth
         } else {
             1.0
         }
     }
+}
+
+/// The depth, in the frame, that is as long in the world as a width is.
+fn least_depth(pose: &Pose, width: f64) -> f64 {
+    let [across, _, along] = pose.axes.map(|axis| axis.dot(axis).sqrt());
+    let depth = width * (along / across);
+    if depth.is_finite() { depth } else { 0.0 }
 }
 
 /// Right, up and forward of the onlooker, unit vectors.
@@ -296,6 +309,21 @@ mod tests {
             assert!((-3.5..-3.0).contains(&z), "{z}");
             check(&camera(5.0, far), None);
         }
+    }
+
+    #[test]
+    fn a_flat_scene_at_the_near_face_leaves_the_frustum_its_depth() {
+        let at = |z: f64| Bounds {
+            low: [-1.0, -1.0, z].into(),
+            high: [1.0, 1.0, z].into(),
+        };
+        let thin = check(&camera(5.0, 25.0), Some(at(4.999_999)));
+        assert!(thin.solid.beyond.is_some());
+        let width = thin.solid.near[1].x - thin.solid.near[0].x;
+        let depth = thin.solid.near[0].z - thin.solid.end[0].z;
+        assert!((depth / width - 1.0).abs() < 1e-9, "{depth} {width}");
+        let behind = check(&camera(5.0, 15.0), Some(at(20.0)));
+        assert!(behind.solid.beyond.is_none());
     }
 
     #[test]
