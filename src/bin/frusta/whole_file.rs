@@ -20,10 +20,13 @@ static UNFINISHED: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
 
 /// A file under a temporary name beside its own until it is finished; dropped
 /// before that, or when the run is interrupted, it leaves nothing and an older
-/// file of its name untouched. The standard output (`-`), devices and named pipes
-/// are written as they are: they have nothing to be left.
+/// file of its name untouched. A link stays one: the file is what it leads to. The
+/// standard output (`-`), devices and named pipes are written as they are: they have
+/// nothing to be left.
 pub(crate) struct WholeFile {
+    /// Its name in messages, and where it goes.
     path: PathBuf,
+    end: PathBuf,
     out: Option<BufWriter<Target>>,
 }
 
@@ -50,25 +53,47 @@ impl Write for Target {
 
 /// Whether a name stands for the standard output.
 pub(crate) fn is_stream(path: &Path) -> bool {
-    path == Path::new("-")
+    let names = ["-", "/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"];
+    names.iter().any(|name| path == Path::new(name))
+}
+
+/// Where links lead, whether there is a file or not. An open file's link in `/proc`
+/// is not followed: what has it open would not see another file of its name.
+fn followed(path: &Path) -> Result<PathBuf, Failure> {
+    const MOST: usize = 40;
+    let mut end = path.to_owned();
+    for _ in 0..MOST {
+        match std::fs::read_link(&end) {
+            Ok(target) if !end.starts_with("/proc") => {
+                end = end.parent().unwrap_or(Path::new("")).join(target);
+            }
+            _ => return Ok(end),
+        }
+    }
+    let why = "cannot be written: it is a link in a ring";
+    Err(Failure::in_file(path, why))
 }
 
 impl WholeFile {
     /// Begins the file.
     pub(crate) fn create(path: &Path) -> Result<Self, Failure> {
-        let (path, target) = if is_stream(path) {
+        let end = followed(path)?;
+        let is_stream = is_stream(path);
+        let is_device = end.metadata().is_ok_and(|m| !m.is_file() && !m.is_dir());
+        let (path, target) = if is_stream {
             let name = Path::new("standard output");
             (name, Target::Stream(Box::new(io::stdout())))
-        } else if path.metadata().is_ok_and(|m| !m.is_file() && !m.is_dir()) {
+        } else if is_device || end.starts_with("/proc") {
             // A rename would put a plain file in a device's place.
-            let device = File::options().write(true).open(path);
+            let device = File::options().append(true).open(&end);
             let device = device.map_err(|e| failure(path, &e))?;
             (path, Target::Stream(Box::new(device)))
         } else {
-            (path, Target::File(temporary(path)?))
+            (path, Target::File(temporary(path, &end)?))
         };
         Ok(Self {
             path: path.to_owned(),
+            end,
             out: Some(BufWriter::with_capacity(BUFFER, target)),
         })
     }
@@ -92,7 +117,7 @@ impl WholeFile {
             Ok(Target::File(file)) => {
                 let mut unfinished = UNFINISHED.lock().unwrap_or_else(PoisonError::into_inner);
                 let temporary = file.path().to_owned();
-                file.persist(&self.path).map_err(|e| fail(&e.error))?;
+                file.persist(&self.end).map_err(|e| fail(&e.error))?;
                 unfinished.retain(|path| *path != temporary);
                 Ok(())
             }
@@ -118,11 +143,12 @@ pub(crate) fn watch_for_interruption() {
     drop(set);
 }
 
-fn temporary(path: &Path) -> Result<NamedTempFile, Failure> {
-    if path.is_dir() {
+/// The file for `end`, which messages call `path`.
+fn temporary(path: &Path, end: &Path) -> Result<NamedTempFile, Failure> {
+    if end.is_dir() {
         return Err(Failure::in_file(path, "cannot be written: it is a folder"));
     }
-    let folder = match path.parent() {
+    let folder = match end.parent() {
         Some(folder) if !folder.as_os_str().is_empty() => folder,
         _ => Path::new("."),
     };
