@@ -92,6 +92,11 @@ fn rows() -> Vec<Case> {
             "a.csv",
             "1,2,3,4,5,6\n1,2,3,4,5,\"6\n1,2,3,4,5,6\n",
         ),
+        case(
+            "lines that end with carriage returns",
+            "a.csv",
+            "x0,y0,z0,x1,y1,z1\r1,2,3,4,5,6\r",
+        ),
         case("10 GB of nothing", "a.csv", Huge(Vec::new())),
     ]
 }
@@ -116,7 +121,12 @@ fn objs() -> Vec<Case> {
             "a.obj",
             "v 0 0 0\nf 1 1 4294967297\n",
         ),
-        case("UTF-16", "a.obj", b"\xff\xfev\0 \0001\0".to_vec()),
+        case(
+            "lines that end with carriage returns",
+            "a.obj",
+            "v 0 0 0\rv 1 1 1\rl 1 2\r",
+        ),
+        case("UTF-16", "a.obj", b"\xff\xfev\x00 \x001\x00".to_vec()),
         case("10 GB of nothing", "a.obj", Huge(b"v 0 0 0\n".to_vec())),
     ]
 }
@@ -211,6 +221,21 @@ fn plys() -> Vec<Case> {
             "a.ply",
             head("ascii", 1, 0).replace("property float z\n", "") + "0 0\n",
         ),
+        case(
+            "a number too many",
+            "a.ply",
+            head("ascii", 3, 1) + points + "3 0 1 2 5\n",
+        ),
+        case(
+            "a property twice",
+            "a.ply",
+            head("ascii", 3, 1).replace("float y", "float x") + points + "3 0 1 2\n",
+        ),
+        case(
+            "no format",
+            "a.ply",
+            head("ascii", 3, 1).replace("format ascii 1.0\n", "") + points + "3 0 1 2\n",
+        ),
         case("10 GB of nothing", "a.ply", Huge(b"ply\n".to_vec())),
     ]
 }
@@ -243,6 +268,11 @@ fn gltfs() -> Vec<Case> {
             "an accessor that claims 10^10 points",
             "a.gltf",
             changed("/accessors/0/count", json("10000000000")),
+        ),
+        case(
+            "a buffer that is a device",
+            "a.gltf",
+            changed("/buffers/0/uri", json("\"/dev/zero\"")),
         ),
         case(
             "nodes in a ring",
@@ -355,6 +385,12 @@ fn others() -> Vec<Case> {
         flags("an output that is a folder", &["-o", "taken.csv"]),
         flags("a full disk", &["-o", "/dev/full", "--to", "csv"]),
         frustum("a frustum cut off", "{\"origin\": [0, 0"),
+        Case {
+            what: "a frustum of 10 GB",
+            file: "view.json",
+            content: Huge(b"{".to_vec()),
+            args: &["six.csv", "--frustum", "view.json"],
+        },
         frustum("a frustum of nothing known", "{\"left\": 1}"),
         frustum(
             "a frustum that is inverted",

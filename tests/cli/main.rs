@@ -5,6 +5,7 @@ mod bad_input;
 mod bad_table;
 mod formats;
 mod geo;
+mod hostile;
 mod meshes;
 mod output;
 mod pictures;

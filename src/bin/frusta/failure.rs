@@ -42,9 +42,24 @@ pub(crate) fn quote(text: &str) -> String {
     }
 }
 
+/// A parser's message, in which a piece of the file may stand whole: short, too.
+/// Its end has the place.
+pub(crate) fn shorten(why: impl Display) -> String {
+    const HEAD: usize = 80;
+    const TAIL: usize = 200;
+    let why = why.to_string();
+    let count = why.chars().count();
+    if count <= HEAD + TAIL {
+        return why;
+    }
+    let head: String = why.chars().take(HEAD).collect();
+    let tail: String = why.chars().skip(count - TAIL).collect();
+    format!("{head}...{tail}")
+}
+
 /// Control characters become escapes: a message stays one line, and a file
 /// cannot drive the terminal.
-fn one_line(text: &str) -> String {
+pub(crate) fn one_line(text: &str) -> String {
     let mut line = String::with_capacity(text.len());
     for c in text.chars() {
         if c.is_control() {

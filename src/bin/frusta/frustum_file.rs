@@ -5,23 +5,40 @@
 //! must name the key and what was expected there, and because any number may
 //! be a text that holds a hexadecimal float.
 
-use crate::failure::{Failure, quote};
+use crate::failure::{Failure, quote, shorten};
+use crate::input::MARK;
 use crate::number;
 use crate::view::{Lens, Parameters};
 use frusta::frustum::{ClipSpace, ClipY, DepthRange, MatrixFrustum, MatrixLayout, ViewProjection};
 use frusta::{Deviation, Direction, EndRect, Frustum, Pose, Rect, Shape, Vec3};
 use serde_json::{Map, Value};
+use std::fs::File;
+use std::io::Read;
 use std::path::Path;
 
 /// What a file may be, for the message about one that is nothing of it.
 const EXPECTED: &str = "expected an object with origin, axes, near and far (a rect pair), with \
      slopes and direction instead of far (infinite), with eye and target (a camera), or with matrix";
 
+/// The longest file that is read, in bytes.
+const LONGEST: u64 = 1 << 20;
+
 /// Reads a file; of a matrix, with what its conversion missed.
 pub(crate) fn read(file: &Path) -> Result<(Frustum, Option<Deviation>), Failure> {
-    let text = std::fs::read(file).map_err(|e| Failure::in_file(file, e))?;
-    let value: Value = serde_json::from_slice(&text)
-        .map_err(|e| Failure::in_file(file, format_args!("not JSON: {e}")))?;
+    let mut text = Vec::new();
+    let read = File::open(file).and_then(|f| f.take(LONGEST + 1).read_to_end(&mut text));
+    read.map_err(|e| Failure::in_file(file, e))?;
+    from_text(file, &text)
+}
+
+fn from_text(file: &Path, text: &[u8]) -> Result<(Frustum, Option<Deviation>), Failure> {
+    if text.len() as u64 > LONGEST {
+        let why = format!("it is longer than {LONGEST} bytes; is this a frustum?");
+        return Err(Failure::in_file(file, why));
+    }
+    let text = text.strip_prefix(MARK).unwrap_or(text);
+    let value: Value = serde_json::from_slice(text)
+        .map_err(|e| Failure::in_file(file, format_args!("not JSON: {}", shorten(e))))?;
     parse(&value).map_err(|why| Failure::in_file(file, why))
 }
 
@@ -273,5 +290,47 @@ fn kind(value: &Value) -> String {
         Value::String(text) => quote(text),
         Value::Array(items) => format!("an array of {}", items.len()),
         Value::Object(_) => "an object".to_owned(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::input::damaged::{Damage, check_message};
+
+    #[test]
+    fn damaged_files_are_read_or_refused_and_never_panic() {
+        let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/fixtures/");
+        let mut samples = ["camera", "infinite", "pair"]
+            .map(|name| std::fs::read(format!("{folder}{name}.json")).unwrap())
+            .to_vec();
+        samples.push(
+            b"\xef\xbb\xbf{\"matrix\": [1.5, 0, 0, 0, 0, 2, 0, 0, 0, 0, -1.2, -1, 0, 0, -0.22, 0],\n\
+              \"layout\": \"column-major\", \"depth\": \"-1..1\", \"reversed\": false,\n\
+              \"y\": \"down\", \"precision\": \"f32\"}\n"
+                .to_vec(),
+        );
+        let file = Path::new("a.json");
+        let mut damage = Damage::new();
+        let (mut whole, mut refused) = (0, 0);
+        for round in 0..20_000 {
+            let sample = &samples[round % samples.len()];
+            if round < samples.len() {
+                from_text(file, sample).unwrap();
+            }
+            match from_text(file, &damage.of(sample)) {
+                Ok((frustum, _)) => {
+                    whole += 1;
+                    // Twelve numbers or more; none is NaN or infinite.
+                    let text = format!("{:?}", frustum.pose());
+                    assert!(!text.contains("NaN") && !text.contains("inf"), "{text}");
+                }
+                Err(failure) => {
+                    refused += 1;
+                    check_message(&failure, "a.json");
+                }
+            }
+        }
+        assert!(whole > 1000 && refused > 1000, "{whole} {refused}");
     }
 }

@@ -1,5 +1,6 @@
 //! What a run did, for people and for programs.
 
+use crate::failure::one_line;
 use frusta::{Class, Deviation, Frustum, SegmentClip, StageCounts};
 use serde_json::{Value, json};
 use std::fmt::Write;
@@ -163,8 +164,8 @@ impl Report<'_> {
         }
         let mut table = String::new();
         for (name, value) in rows {
-            // Writing into memory cannot fail.
-            let _ = writeln!(table, "{name:<13} {value}");
+            // Writing into memory cannot fail. A file's name may hold anything.
+            let _ = writeln!(table, "{name:<13} {}", one_line(&value));
         }
         table
     }

@@ -20,30 +20,32 @@ static UNFINISHED: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
 
 /// A file under a temporary name beside its own until it is finished; dropped
 /// before that, or when the run is interrupted, it leaves nothing and an older
-/// file of its name untouched. The standard output (`-`), devices and named pipes
-/// are written as they are: they have nothing to be left.
+/// file of its name untouched. A link stays one: the file is what it leads to. The
+/// standard output (`-`), devices and named pipes are written as they are: they have
+/// nothing to be left.
 pub(crate) struct WholeFile {
+    /// What messages call it, and where it is.
     path: PathBuf,
+    place: PathBuf,
     out: Option<BufWriter<Target>>,
 }
 
 enum Target {
-    /// And where it goes.
-    File(NamedTempFile, PathBuf),
+    File(NamedTempFile),
     Stream(Box<dyn Write>),
 }
 
 impl Write for Target {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         match self {
-            Self::File(file, _) => file.as_file_mut().write(bytes),
+            Self::File(file) => file.as_file_mut().write(bytes),
             Self::Stream(stream) => stream.write(bytes),
         }
     }
 
     fn flush(&mut self) -> io::Result<()> {
         match self {
-            Self::File(file, _) => file.as_file_mut().flush(),
+            Self::File(file) => file.as_file_mut().flush(),
             Self::Stream(stream) => stream.flush(),
         }
     }
@@ -51,27 +53,47 @@ impl Write for Target {
 
 /// Whether a name stands for the standard output.
 pub(crate) fn is_stream(path: &Path) -> bool {
-    path == Path::new("-")
+    let names = ["-", "/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"];
+    names.iter().any(|name| path == Path::new(name))
+}
+
+/// Where links lead, whether there is a file or not. An open file's link in `/proc`
+/// is not followed: what has it open would not see another file of its name.
+fn followed(path: &Path) -> Result<PathBuf, Failure> {
+    const MOST: usize = 40;
+    let mut place = path.to_owned();
+    for _ in 0..MOST {
+        match std::fs::read_link(&place) {
+            Ok(target) if !place.starts_with("/proc") => {
+                place = place.parent().unwrap_or(Path::new("")).join(target);
+            }
+            _ => return Ok(place),
+        }
+    }
+    let why = "cannot be written: it is a link in a ring";
+    Err(Failure::in_file(path, why))
 }
 
 impl WholeFile {
     /// Begins the file.
     pub(crate) fn create(path: &Path) -> Result<Self, Failure> {
-        let (path, target) = if is_stream(path) {
+        let place = followed(path)?;
+        let is_stream = is_stream(path);
+        let is_device = place.metadata().is_ok_and(|m| !m.is_file() && !m.is_dir());
+        let (path, target) = if is_stream {
             let name = Path::new("standard output");
             (name, Target::Stream(Box::new(io::stdout())))
-        } else if path.metadata().is_ok_and(|m| !m.is_file() && !m.is_dir()) {
+        } else if is_device || place.starts_with("/proc") {
             // A rename would put a plain file in a device's place.
-            let device = File::options().write(true).open(path);
+            let device = File::options().append(true).open(&place);
             let device = device.map_err(|e| failure(path, &e))?;
             (path, Target::Stream(Box::new(device)))
         } else {
-            // A rename would put the file in a link's place; it belongs where that leads.
-            let place = path.canonicalize().unwrap_or_else(|_| path.to_owned());
-            (path, Target::File(temporary(path, &place)?, place))
+            (path, Target::File(temporary(path, &place)?))
         };
         Ok(Self {
             path: path.to_owned(),
+            place,
             out: Some(BufWriter::with_capacity(BUFFER, target)),
         })
     }
@@ -92,10 +114,10 @@ impl WholeFile {
         let fail = |e: &io::Error| failure(&self.path, e);
         out.flush().map_err(|e| fail(&e))?;
         match out.into_inner() {
-            Ok(Target::File(file, place)) => {
+            Ok(Target::File(file)) => {
                 let mut unfinished = UNFINISHED.lock().unwrap_or_else(PoisonError::into_inner);
                 let temporary = file.path().to_owned();
-                file.persist(&place).map_err(|e| fail(&e.error))?;
+                file.persist(&self.place).map_err(|e| fail(&e.error))?;
                 unfinished.retain(|path| *path != temporary);
                 Ok(())
             }
@@ -121,9 +143,9 @@ pub(crate) fn watch_for_interruption() {
     drop(set);
 }
 
-/// Beside `place`, which people call `path`.
+/// The file for `place`, which messages call `path`.
 fn temporary(path: &Path, place: &Path) -> Result<NamedTempFile, Failure> {
-    if path.is_dir() {
+    if place.is_dir() {
         return Err(Failure::in_file(path, "cannot be written: it is a folder"));
     }
     let folder = match place.parent() {

@@ -23,9 +23,6 @@ const COLUMNS: [&str; 6] = ["x0", "y0", "z0", "x1", "y1", "z1"];
 /// Bytes in a block: a few thousand rows.
 const BLOCK: usize = 1 << 18;
 
-/// The UTF-8 byte order mark.
-const MARK: &[u8] = b"\xef\xbb\xbf";
-
 /// Whole lines of a file.
 pub(crate) struct Block {
     text: Vec<u8>,
@@ -50,14 +47,9 @@ pub(crate) fn blocks(
 ) -> Result<(), Failure> {
     let mut reader = input.open()?;
     let (mut rest, mut line, mut layout) = (Vec::new(), 1, None);
-    let mut empty = true;
     loop {
         let mut text = rest;
         let more = read_some(&mut reader, &mut text).map_err(|e| input.failure(e))?;
-        if empty && text.starts_with(MARK) {
-            text.drain(..MARK.len());
-        }
-        empty &= text.is_empty();
         // Whole lines stay; at the end the last needs no line break.
         let end = match memrchr(b'\n', &text) {
             Some(at) if more => at + 1,
@@ -95,11 +87,7 @@ pub(crate) fn blocks(
             line += lines;
         }
         if !more {
-            return if empty {
-                Err(input.failure("the file is empty"))
-            } else {
-                Ok(())
-            };
+            return Ok(());
         }
     }
 }
@@ -133,6 +121,11 @@ fn head(text: &[u8]) -> Result<Option<(Layout, usize)>, LineError> {
                 .read_byte_record(&mut record)
                 .map_err(|e| (n, e.to_string()))?;
             let (layout, is_header) = layout(&record).map_err(|why| (n, why))?;
+            // What follows it in the line would be passed over.
+            if memchr(b'\r', line.trim_ascii_end()).is_some() {
+                let why = "a carriage return without a line feed after it";
+                return Err((n, why.to_owned()));
+            }
             let skipped = start + if is_header { line.len() } else { 0 };
             return Ok(Some((layout, skipped)));
         }
@@ -253,6 +246,7 @@ impl Layout {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::input::damaged;
     use std::path::Path;
 
     /// All segments, or the message.
@@ -321,8 +315,37 @@ mod tests {
             );
         }
         assert_eq!(
-            read("1,2,3,4,5,6\r1,2,3,4,5,6\r").unwrap_err(),
+            read("1,2,3,4,5,6\n1,2,3,4,5,6\r1,2,3,4,5,6\r").unwrap_err(),
             "a: 1: carriage returns without line feeds end rows below"
         );
+        for text in [
+            "1,2,3,4,5,6\r1,2,3,4,5,6\r",
+            "x0,y0,z0,x1,y1,z1\r1,2,3,4,5,6\r\n",
+        ] {
+            let error = read(text).unwrap_err();
+            let why = "/a.csv: line 1: a carriage return without a line feed after it";
+            assert_eq!(error, why, "{text:?}");
+        }
+    }
+
+    #[test]
+    fn damaged_files_are_read_or_refused_and_never_panic() {
+        let samples = [
+            "\u{feff}# c\r\n\r\nx0,y0,z0,x1,y1,z1,\"a, b\"\r\n1,2,3,4,5,6,\"x, y\"\r\n\r\n-1,0x1p-3,\
+             1e5,4.25,50,6,z\r\n#,\r\n9,8,7,6,5,4,\r\n",
+            "1,2,3,4,5,6\n10, 20,30 ,40,50,60\n# c\n.5,5.,+1,1e-5,-0,\"7\"",
+        ];
+        let samples = samples.map(|text| text.as_bytes().to_vec());
+        damaged::check("a.csv", &samples, 20_000, |input| {
+            let mut out = Vec::new();
+            let mut rows = 0;
+            blocks(input, |block| {
+                rows += block.rows();
+                let parsed = block.parse(&mut out);
+                parsed.map_err(|e| input.failure_in_line(e))
+            })?;
+            assert_eq!(rows, out.len() as u64);
+            Ok(out)
+        });
     }
 }

@@ -11,7 +11,7 @@
 
 use super::opened::Input;
 use super::wgs84;
-use crate::failure::Failure;
+use crate::failure::{Failure, shorten};
 use frusta::{Segment, Vec3};
 use geojson::{Feature, GeoJson, Geometry, GeometryValue, Position};
 use serde::Deserializer as _;
@@ -46,11 +46,11 @@ pub(crate) fn document(
     let fault = walk.fault.take();
     let read = walk.settle(read, |e| match fault {
         Some(why) => input.failure(why),
-        None => input.failure(format_args!("not GeoJSON: {e}")),
+        None => input.failure(not_geojson(&e)),
     });
     if let Some(rest) = read? {
         let alone = serde_json::from_value::<GeoJson>(Value::Object(rest));
-        let alone = alone.map_err(|e| input.failure(format_args!("not GeoJSON: {e}")))?;
+        let alone = alone.map_err(|e| input.failure(not_geojson(&e)))?;
         let walked = walk.json(&alone);
         walk.settle(walked, |why| input.failure(why))?;
     }
@@ -68,11 +68,15 @@ pub(crate) fn sequence(
     for json in serde_json::Deserializer::from_reader(reader).into_iter::<GeoJson>() {
         let number = walk.feature;
         let fail = |e| input.failure_at(format_args!("feature {number}"), e);
-        let json = json.map_err(|e| fail(format!("not GeoJSON: {e}")))?;
+        let json = json.map_err(|e| fail(not_geojson(&e)))?;
         let walked = walk.json(&json);
         walk.settle(walked, |why| input.failure(why))?;
     }
     Ok(())
+}
+
+fn not_geojson(why: &serde_json::Error) -> String {
+    format!("not GeoJSON: {}", shorten(why))
 }
 
 /// A sequence as RFC 8142 has it, with a record separator before each text, which
@@ -278,5 +282,54 @@ impl<'de> Visitor<'de> for Features<'_, '_, '_> {
                 return Err(S::Error::custom("a feature makes no sense"));
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::input::{Format, damaged};
+
+    fn read(input: &Input, positions: Positions) -> Result<Vec<Segment<f64>>, Failure> {
+        let mut out = Vec::new();
+        let mut take = |segment| {
+            out.push(segment);
+            Ok(())
+        };
+        match input.format {
+            Format::Geojson => document(input, positions, &mut take)?,
+            _ => sequence(input, positions, &mut take)?,
+        }
+        Ok(out)
+    }
+
+    #[test]
+    fn damaged_files_are_read_or_refused_and_never_panic() {
+        let line = r#"{"type": "LineString", "coordinates": [[0, 0], [10, 20.5], [1e1, 30, 7]]}"#;
+        let polygon = r#"{"type": "Polygon", "coordinates": [[[0, 0], [10, 0], [0, 10]], [[1, 1],
+            [2, 1], [1, 2], [1, 1]]]}"#;
+        let several = format!(
+            "{{\"type\": \"GeometryCollection\", \"geometries\": [{line}, {polygon},
+            {{\"type\": \"Point\", \"coordinates\": [1, 2]}}]}}"
+        );
+        let feature = |geometry: &str| {
+            format!(
+                "{{\"type\": \"Feature\", \"properties\": {{\"a\": 1}}, \"geometry\": {geometry}}}"
+            )
+        };
+        let list = [feature(line), feature(&several), feature("null")];
+        let whole = format!(
+            "{{\"type\": \"FeatureCollection\", \"bbox\": [0, 0, 1, 1],\n\"features\": [\n{}\n]}}",
+            list.join(",\n")
+        );
+        let samples = [whole, several.clone(), feature(polygon)].map(String::into_bytes);
+        for positions in [Positions::AsGiven, Positions::Ecef] {
+            damaged::check("a.json", &samples, 15_000, |input| read(input, positions));
+        }
+        let sequence = format!("\u{1e}{}\n\u{1e}{several}\n{line}\n", list.join("\n"));
+        let samples = [sequence.into_bytes()];
+        damaged::check("a.ndjson", &samples, 10_000, |input| {
+            read(input, Positions::AsGiven)
+        });
     }
 }

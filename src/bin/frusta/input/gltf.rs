@@ -13,7 +13,7 @@ use super::gltf_data::{self, Data};
 use super::opened::Input;
 use super::scene::{Instance, Mesh, Transform};
 use super::{EdgeChoice, Scene, stl};
-use crate::failure::Failure;
+use crate::failure::{Failure, shorten};
 use gltf::json;
 use gltf::json::validation::Checked;
 use gltf::mesh::Mode;
@@ -103,7 +103,7 @@ fn document(mut reader: impl Read, size: Option<u64>) -> Result<json::Root, json
 }
 
 fn not_gltf(file: &Path, chunk: &str, why: &json::Error) -> Failure {
-    Failure::in_file(file, format_args!("not glTF: at {chunk}{why}"))
+    Failure::in_file(file, format_args!("not glTF: at {chunk}{}", shorten(why)))
 }
 
 /// The JSON, checked.

@@ -13,6 +13,9 @@ use gltf::json;
 use gltf::json::validation::Checked;
 use percent_encoding::percent_decode_str;
 use std::borrow::Cow;
+use std::fmt::Display;
+use std::fs::File;
+use std::io::Read;
 use std::path::Path;
 
 /// A document and its buffers.
@@ -31,7 +34,7 @@ impl<'a> Data<'a> {
         let mut buffers = Vec::with_capacity(root.buffers.len());
         for (i, buffer) in root.buffers.iter().enumerate() {
             let bytes = match (&buffer.uri, blob) {
-                (Some(uri), _) => load_uri(file, uri).map(Cow::Owned),
+                (Some(uri), _) => load_uri(file, uri, buffer.byte_length.0).map(Cow::Owned),
                 (None, Some(blob)) if i == 0 => Ok(Cow::Borrowed(blob)),
                 (None, _) => Err("it has no uri, and there is no binary chunk for it".to_owned()),
             };
@@ -99,7 +102,8 @@ impl<'a> Data<'a> {
     }
 }
 
-fn load_uri(file: &Path, uri: &str) -> Result<Vec<u8>, String> {
+/// At most `most` bytes of what a buffer names.
+fn load_uri(file: &Path, uri: &str, most: u64) -> Result<Vec<u8>, String> {
     if let Some(rest) = uri.strip_prefix("data:") {
         let (_, text) = rest
             .split_once(";base64,")
@@ -115,7 +119,16 @@ fn load_uri(file: &Path, uri: &str) -> Result<Vec<u8>, String> {
         .decode_utf8()
         .map_err(|_| "its uri is not UTF-8".to_owned())?;
     let path = file.parent().unwrap_or(Path::new("")).join(name.as_ref());
-    std::fs::read(&path).map_err(|e| format!("{}: {e}", path.display()))
+    let fail = |why: &dyn Display| format!("{}: {why}", path.display());
+    // A device or a named pipe might never end, or never begin.
+    let data = path.metadata().map_err(|e| fail(&e))?;
+    if !data.is_file() {
+        return Err(fail(&"no plain file"));
+    }
+    let mut bytes = Vec::new();
+    let read = File::open(&path).and_then(|f| f.take(most).read_to_end(&mut bytes));
+    read.map_err(|e| fail(&e))?;
+    Ok(bytes)
 }
 
 /// Appends an accessor's points.

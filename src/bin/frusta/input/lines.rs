@@ -1,8 +1,11 @@
 //! Lines of a text, with their numbers.
 //!
 //! A line has a greatest length: what has a longer one is no text, and reading
-//! on would fill the memory with it.
+//! on would fill the memory with it. Lines end with a line feed, with or without
+//! a carriage return before it; a text whose lines end with the latter alone is
+//! refused, since it would be one line with most of it passed over.
 
+use memchr::memchr;
 use std::io::{BufRead, Read};
 
 /// The longest line that is read, in bytes.
@@ -38,16 +41,20 @@ impl<R: BufRead> Lines<R> {
     }
 
     /// The same, where a backslash at a line's end joins the next; the number is
-    /// the first one's.
+    /// the first one's. A comment ends with its line: it may hold a folder's name.
     pub(super) fn next_joined(&mut self) -> Result<Option<(u64, &[u8])>, LineError> {
         self.line.clear();
         if !self.append()? {
             return Ok(None);
         }
         let number = self.number;
+        let mut start = 0;
         while let Some(head) = self.line.trim_ascii_end().strip_suffix(b"\\") {
-            let length = head.len();
-            self.line.truncate(length);
+            if memchr(b'#', head.get(start..).unwrap_or_default()).is_some() {
+                break;
+            }
+            start = head.len();
+            self.line.truncate(start);
             self.line.push(b' ');
             if !self.append()? {
                 break;
@@ -59,17 +66,19 @@ impl<R: BufRead> Lines<R> {
     /// Appends a line to the buffer; `false` at the end.
     fn append(&mut self) -> Result<bool, LineError> {
         self.number += 1;
-        let room = (LONGEST - self.line.len().min(LONGEST)) as u64 + 1;
+        let start = self.line.len();
+        let room = (LONGEST - start.min(LONGEST)) as u64 + 1;
         let count = (&mut self.reader)
             .take(room)
             .read_until(b'\n', &mut self.line)
             .map_err(|e| (self.number, e.to_string()))?;
+        if memchr(b'\r', self.line[start..].trim_ascii_end()).is_some() {
+            let why = "a carriage return without a line feed after it";
+            return Err((self.number, why.to_owned()));
+        }
         if self.line.len() > LONGEST && !self.line.ends_with(b"\n") {
             let why = format!("the line is longer than {LONGEST} bytes; is this a text?");
             return Err((self.number, why));
-        }
-        if self.number == 1 && matches!(self.line[..], [0xff, 0xfe, ..] | [0xfe, 0xff, ..]) {
-            return Err((1, "the text is UTF-16; expected UTF-8".to_owned()));
         }
         Ok(count > 0)
     }
@@ -111,6 +120,26 @@ mod tests {
             all(text, true),
             own(&[(1, "a"), (2, ""), (3, "b   c"), (5, "d")])
         );
+        // Not in a comment.
+        let text = b"# C:\\a\\\nv 0\nl 1 \\\n2 # \\\n3\n";
+        let lines = [(1, "# C:\\a\\"), (2, "v 0"), (3, "l 1  2 # \\"), (5, "3")];
+        assert_eq!(all(text, true), own(&lines));
+    }
+
+    #[test]
+    fn carriage_returns_alone_are_refused() {
+        for text in ["a\rb\n", "a\n\rb", "# a\rb \\\r\nc\n", "a \\\nb\rc"] {
+            let mut lines = Lines::new(text.as_bytes());
+            let error = loop {
+                match lines.next_joined() {
+                    Ok(line) => assert!(line.is_some(), "{text:?}"),
+                    Err((_, why)) => break why,
+                }
+            };
+            let why = "a carriage return without a line feed after it";
+            assert_eq!(error, why, "{text:?}");
+        }
+        assert_eq!(all(b"a\r\r\nb\r", false).len(), 2);
     }
 
     #[test]

@@ -4,6 +4,8 @@
 //! GeoJSON and, if asked for, OBJ lines stay a stream.
 
 pub(crate) mod csv;
+#[cfg(test)]
+pub(crate) mod damaged;
 mod edges;
 pub(crate) mod geojson;
 mod gltf;
@@ -16,7 +18,7 @@ mod scene;
 mod stl;
 pub(crate) mod wgs84;
 
-pub(crate) use opened::Input;
+pub(crate) use opened::{Input, MARK};
 pub(crate) use scene::{Bounds, Scene};
 
 use crate::failure::Failure;

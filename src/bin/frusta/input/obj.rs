@@ -31,8 +31,7 @@ pub(super) fn read(input: &Input, choice: Option<EdgeChoice>) -> Result<Scene, F
 /// Gives the segments of a file's `l` elements as they come.
 ///
 /// Only the vertices are kept, since any element may name any of them. A file is
-/// read twice, so that an element may name one that comes later; the standard
-/// input cannot be.
+/// read twice, so that an element may name one that comes later; a pipe cannot be.
 pub(crate) fn lines(
     input: &Input,
     take: &mut dyn FnMut(Segment<f64>) -> Result<(), Failure>,
@@ -70,7 +69,7 @@ pub(crate) fn lines(
                     "vertex {vertex} of {}{}",
                     all.points.len(),
                     if input.is_piped() {
-                        " so far; in standard input vertices come before the lines"
+                        " so far; in a pipe vertices come before the lines"
                     } else {
                         ""
                     }
@@ -244,6 +243,7 @@ impl Reader {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::input::damaged;
 
     /// A file of that text, and its messages without the folder's name.
     fn with_file<T>(
@@ -331,5 +331,31 @@ mod tests {
         ] {
             assert_eq!(segments(text, None).unwrap_err(), message, "{text:?}");
         }
+    }
+
+    #[test]
+    fn damaged_files_are_read_or_refused_and_never_panic() {
+        let sample = "# a comment\nmtllib a.mtl\nv 0 0 0\nv 1 0 0 0.5 0.5 0.5\nv 1 1 0\n\
+                      v 0x1p-1 1 0 1\nvn 0 0 1\ng a\nl 1 2 \\\n 3\nf 1/1/1 2//2 -2/7 -1\n\
+                      usemtl b\nl -1 5 # c\nv 9 9 9\nl 2 3 4 1\nv -1.5e3 12 34.25\n";
+        let samples = [sample.to_owned(), sample.replace('\n', "\r\n")];
+        let bytes = samples.clone().map(String::into_bytes);
+        damaged::check("a.obj", &bytes, 20_000, |input| {
+            let scene = read(input, Some(EdgeChoice::All))?;
+            let mut out = Vec::new();
+            scene.fill(0, scene.len(), &mut out);
+            Ok(out)
+        });
+        // The same as a stream; a pipe's lines may not name vertices to come.
+        let samples = samples.map(|s| s.replace("l -1 5 # c", "l -1 4"));
+        let samples = samples.map(String::into_bytes);
+        damaged::check("a.obj", &samples, 20_000, |input| {
+            let mut out = Vec::new();
+            lines(input, &mut |segment| {
+                out.push(segment);
+                Ok(())
+            })?;
+            Ok(out)
+        });
     }
 }

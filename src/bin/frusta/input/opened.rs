@@ -3,7 +3,7 @@
 use super::Format;
 use crate::failure::Failure;
 use std::fs::File;
-use std::io::{self, BufReader, Read};
+use std::io::{self, BufRead, BufReader, ErrorKind, Read};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -11,17 +11,29 @@ use std::sync::atomic::{AtomicU64, Ordering};
 /// Bytes between two looks at the file.
 const BUFFER: usize = 1 << 18;
 
+/// Bytes that tell a file's kind. A pipe may give fewer at first; the first look
+/// waits for as many.
+const HEAD: usize = 512;
+
+/// The UTF-8 byte order mark, which editors write before a text.
+pub(crate) const MARK: &[u8] = b"\xef\xbb\xbf";
+
 /// What to read, and as what.
 #[derive(Clone, Debug)]
 pub(crate) struct Input {
     /// The file's name, or what messages call the standard input.
     name: PathBuf,
     /// Whether it is the standard input.
+    standard: bool,
+    /// Whether it can be read only once.
     piped: bool,
     /// The format.
     pub(crate) format: Format,
     /// How many bytes have been read.
     read: Arc<AtomicU64>,
+    /// A test's bytes.
+    #[cfg(test)]
+    content: Option<Arc<[u8]>>,
 }
 
 /// A buffered reader.
@@ -31,25 +43,39 @@ impl Input {
     /// A file, or the standard input for `-`; without a format the file's name
     /// tells it.
     pub(crate) fn new(file: &Path, format: Option<Format>) -> Result<Self, Failure> {
-        let piped = file == Path::new("-");
+        let standard = file == Path::new("-");
         let format = match format {
             Some(format) => format,
-            None if piped => {
+            None if standard => {
                 let why = "give its format with --from";
                 return Err(Failure::in_file(Path::new("standard input"), why));
             }
             None => Format::of(file)?,
         };
         Ok(Self {
-            name: if piped {
+            name: if standard {
                 PathBuf::from("standard input")
             } else {
                 file.to_owned()
             },
-            piped,
+            standard,
+            // A named pipe or a device, such as a shell's `<(...)`.
+            piped: standard || file.metadata().is_ok_and(|m| !m.is_file() && !m.is_dir()),
             format,
             read: Arc::default(),
+            #[cfg(test)]
+            content: None,
         })
+    }
+
+    /// These bytes instead of a file.
+    #[cfg(test)]
+    pub(super) fn of_bytes(name: &str, content: &[u8], piped: bool) -> Self {
+        Self {
+            content: Some(content.into()),
+            piped,
+            ..Self::new(Path::new(name), None).unwrap()
+        }
     }
 
     /// The name for messages.
@@ -64,7 +90,11 @@ impl Input {
 
     /// How many bytes there are, of a file.
     pub(crate) fn size(&self) -> Option<u64> {
-        let data = self.name.metadata().ok().filter(|_| !self.piped)?;
+        #[cfg(test)]
+        if let Some(content) = self.content.as_ref().filter(|_| !self.piped) {
+            return Some(content.len() as u64);
+        }
+        let data = self.name.metadata().ok().filter(|_| !self.standard)?;
         data.is_file().then_some(data.len())
     }
 
@@ -73,28 +103,46 @@ impl Input {
         self.read.load(Ordering::Relaxed)
     }
 
-    /// Opens it from its beginning.
+    /// Opens it from its beginning, after a byte order mark. Nothing is an error.
     pub(super) fn open(&self) -> Result<Reader, Failure> {
         self.read.store(0, Ordering::Relaxed);
-        let source: Box<dyn Read + Send> = if self.piped {
-            Box::new(io::stdin())
-        } else {
-            let file = File::open(&self.name).map_err(|e| self.failure(e))?;
-            if let Ok(data) = file.metadata() {
-                if data.is_dir() {
-                    return Err(self.failure("a folder, not a file"));
-                }
-                if data.is_file() && data.len() == 0 {
-                    return Err(self.failure("the file is empty"));
-                }
-            }
-            Box::new(file)
-        };
         let counted = Counted {
-            source,
+            source: self.source()?,
             read: Arc::clone(&self.read),
+            begun: false,
         };
-        Ok(BufReader::with_capacity(BUFFER, counted))
+        let mut reader = BufReader::with_capacity(BUFFER, counted);
+        let start = reader.fill_buf().map_err(|e| self.failure(e))?;
+        // A binary STL file may begin with anything.
+        if self.format != Format::Stl {
+            if matches!(start, [0xff, 0xfe, ..] | [0xfe, 0xff, ..]) {
+                let why = "the text is UTF-16; expected UTF-8".to_owned();
+                return Err(self.failure_in_line((1, why)));
+            }
+            if start.starts_with(MARK) {
+                reader.consume(MARK.len());
+            }
+        }
+        let start = reader.fill_buf().map_err(|e| self.failure(e))?;
+        if start.is_empty() {
+            return Err(self.failure("the file is empty"));
+        }
+        Ok(reader)
+    }
+
+    fn source(&self) -> Result<Box<dyn Read + Send>, Failure> {
+        #[cfg(test)]
+        if let Some(content) = &self.content {
+            return Ok(Box::new(io::Cursor::new(Arc::clone(content))));
+        }
+        if self.standard {
+            return Ok(Box::new(io::stdin()));
+        }
+        let file = File::open(&self.name).map_err(|e| self.failure(e))?;
+        if file.metadata().is_ok_and(|data| data.is_dir()) {
+            return Err(self.failure("a folder, not a file"));
+        }
+        Ok(Box::new(file))
     }
 
     /// A failure of the whole.
@@ -121,11 +169,24 @@ impl Input {
 pub(super) struct Counted {
     source: Box<dyn Read + Send>,
     read: Arc<AtomicU64>,
+    /// Whether the first bytes have been read.
+    begun: bool,
 }
 
 impl Read for Counted {
     fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
-        let count = self.source.read(buffer)?;
+        let mut count = self.source.read(buffer)?;
+        if !std::mem::replace(&mut self.begun, true) {
+            let least = HEAD.min(buffer.len());
+            while 0 < count && count < least {
+                match self.source.read(&mut buffer[count..]) {
+                    Ok(0) => break,
+                    Ok(more) => count += more,
+                    Err(e) if e.kind() == ErrorKind::Interrupted => {}
+                    Err(e) => return Err(e),
+                }
+            }
+        }
         self.read.fetch_add(count as u64, Ordering::Relaxed);
         Ok(count)
     }

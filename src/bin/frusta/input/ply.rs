@@ -1,9 +1,11 @@
 //! PLY, text and binary: `edge` elements as lines, `face` and `tristrips` as
 //! triangles' (polygons') edges, each once.
 //!
-//! The `ply-rs-bw` crate reads header and elements. The header is cut out here
-//! first, within a length, and elements are read one by one: what a header
-//! claims is never allocated.
+//! The `ply-rs-bw` crate reads the header and binary elements. The header is cut
+//! out here first, within a length, and elements are read one by one: what a
+//! header claims is never allocated. Names must differ, since the crate keeps the
+//! last of equal ones. Texts are read here: the crate knows neither `.5` nor `5.`,
+//! and passes over what a line has too much.
 
 use super::edges::UniqueEdges;
 use super::lines::{LONGEST, Lines};
@@ -11,12 +13,21 @@ use super::opened::{Input, Reader};
 use super::scene::{Instance, Mesh};
 use super::{EdgeChoice, Scene};
 use crate::failure::{Failure, quote};
+use crate::number;
 use frusta::Vec3;
 use ply_rs_bw::parser::Parser;
 use ply_rs_bw::ply::{
-    ElementDef, Encoding, Header, Property, PropertyAccess, PropertyAccessResult,
+    ElementDef, Encoding, Header, Property, PropertyAccess, PropertyAccessResult, PropertyType,
+    ScalarType,
 };
-use std::io::{BufRead, Read};
+use std::collections::HashSet;
+use std::io::BufRead;
+
+/// The names of a face's list of vertices.
+const LISTS: [&str; 2] = ["vertex_indices", "vertex_index"];
+
+/// The longest name in a header, in bytes; names are part of messages.
+const LONGEST_NAME: usize = 100;
 
 /// What an error is about and the reason.
 type Fault = (String, String);
@@ -48,54 +59,94 @@ pub(super) fn read(input: &Input, choice: Option<EdgeChoice>) -> Result<Scene, F
 }
 
 /// The header and the number of its lines.
+///
+/// The crate gets line feeds alone, and a comment for each line that is none of
+/// the format's: old writers forgot that word.
 fn header(reader: &mut Reader) -> Result<(Header, u64), Fault> {
-    let (mut text, mut lines) = (Vec::new(), 0);
-    loop {
-        lines += 1;
-        let place = || format!("line {lines}");
-        let start = text.len();
-        let room = (LONGEST - start.min(LONGEST)) as u64 + 1;
-        let read = reader.by_ref().take(room).read_until(b'\n', &mut text);
-        let count = read.map_err(|e| (place(), e.to_string()))?;
-        let line = text[start..].trim_ascii();
-        if lines == 1 && line != b"ply" {
-            return Err((place(), "not PLY: the first line must be ply".to_owned()));
+    let fail = |(number, why)| (format!("line {number}"), why);
+    let not_ply = || fail((1, "not PLY: the first line must be ply".to_owned()));
+    let start = reader.fill_buf().map_err(|e| fail((1, e.to_string())))?;
+    if !start.trim_ascii_start().starts_with(b"ply") {
+        return Err(not_ply());
+    }
+    let mut lines = Lines::new(reader);
+    let (mut text, mut last) = (Vec::new(), 0);
+    let mut names = Names::default();
+    while let Some((number, line)) = lines.next().map_err(fail)? {
+        last = number;
+        let line = line.trim_ascii();
+        if number == 1 && line != b"ply" {
+            return Err(not_ply());
         }
+        if names.add(line).map_err(|why| fail((number, why)))? {
+            text.extend(line);
+        } else {
+            text.extend(b"comment");
+        }
+        text.push(b'\n');
         if line == b"end_header" {
+            return Ok((parsed(&text)?, number));
+        }
+        if text.len() > LONGEST {
             break;
         }
-        if count == 0 || text.len() > LONGEST {
-            return Err((place(), "the header has no end_header".to_owned()));
-        }
     }
-    let text = cleaned(&text);
-    let parsed = Parser::<Skipped>::new().read_ply_header(&mut &text[..]);
-    let header = parsed.map_err(|e| {
-        // The crate's own messages are a parser's; the line says more.
-        let number = e.line().unwrap_or(1);
-        let line = text.split(|&b| b == b'\n').nth(number - 1);
-        let line = String::from_utf8_lossy(line.unwrap_or_default());
-        let why = format!("{} makes no sense in the header", quote(&line));
-        (format!("line {number}"), why)
-    })?;
-    Ok((header, lines))
+    Err(fail((last + 1, "the header has no end_header".to_owned())))
 }
 
-/// A header with line feeds alone, as the crate wants it, and with a comment for
-/// each line that is none of the format's: old writers forgot that word.
-fn cleaned(text: &[u8]) -> Vec<u8> {
-    let known = ["ply", "format", "element", "property", "end_header"].map(str::as_bytes);
-    let mut out = Vec::with_capacity(text.len());
-    for line in text.trim_ascii_end().split(|&b| b == b'\n') {
-        let word = line.trim_ascii().split(u8::is_ascii_whitespace).next();
-        if word.is_some_and(|word| known.contains(&word)) {
-            out.extend(line.trim_ascii());
-        } else {
-            out.extend(b"comment");
+fn parsed(text: &[u8]) -> Result<Header, Fault> {
+    let lines = || text.split(|&b| b == b'\n');
+    let format = lines().position(|line| line.starts_with(b"format"));
+    let Some(format) = format else {
+        let why = "the header has no line that begins with format".to_owned();
+        return Err(("line 2".to_owned(), why));
+    };
+    let parsed = Parser::<Row>::new().read_ply_header(&mut &text[..]);
+    parsed.map_err(|e| {
+        // The crate's own messages are a parser's; the line says more. It names
+        // none where the format is at fault, or a line that is not UTF-8.
+        let torn = || lines().position(|line| std::str::from_utf8(line).is_err());
+        let index = e.line().map(|n| n - 1).or_else(torn).unwrap_or(format);
+        let line = String::from_utf8_lossy(lines().nth(index).unwrap_or_default());
+        let why = format!("{} makes no sense in the header", quote(&line));
+        (format!("line {}", index + 1), why)
+    })
+}
+
+/// The names of elements and of the last one's properties.
+#[derive(Default)]
+struct Names {
+    elements: HashSet<Vec<u8>>,
+    properties: HashSet<Vec<u8>>,
+}
+
+impl Names {
+    /// Takes in a line; whether it is one of the format's.
+    fn add(&mut self, line: &[u8]) -> Result<bool, String> {
+        let words = || {
+            line.split(u8::is_ascii_whitespace)
+                .filter(|w| !w.is_empty())
+        };
+        let (names, name) = match words().next() {
+            Some(b"element") => {
+                self.properties.clear();
+                (&mut self.elements, words().nth(1))
+            }
+            Some(b"property") => (&mut self.properties, words().next_back()),
+            word => return Ok(matches!(word, Some(b"ply" | b"format" | b"end_header"))),
+        };
+        match name {
+            Some(name) if name.len() > LONGEST_NAME => {
+                let name = String::from_utf8_lossy(name);
+                Err(format!("the name {} is too long", quote(&name)))
+            }
+            Some(name) if !names.insert(name.to_vec()) => {
+                let name = String::from_utf8_lossy(name);
+                Err(format!("a second {} here", quote(&name)))
+            }
+            _ => Ok(true),
         }
-        out.push(b'\n');
     }
-    out
 }
 
 /// What follows the header.
@@ -108,8 +159,7 @@ enum Payload {
 
 impl Payload {
     /// The next element.
-    fn next<E: PropertyAccess>(&mut self, number: usize, def: &ElementDef) -> Result<E, Fault> {
-        let parser = Parser::<E>::new();
+    fn next<E: Element>(&mut self, number: usize, def: &ElementDef) -> Result<E, Fault> {
         let place = || format!("{} {number}", def.name);
         match self {
             Self::Text(lines, before) => loop {
@@ -120,17 +170,13 @@ impl Payload {
                     let why = format!("the file ends before it; the header says {}", def.count);
                     return Err((place(), why));
                 };
-                if line.is_empty() {
-                    continue;
+                if !line.is_empty() {
+                    let at = |why| (format!("line {}, {}", *before + n, place()), why);
+                    return element(&String::from_utf8_lossy(line), def).map_err(at);
                 }
-                let at = || format!("line {}, {}", *before + n, place());
-                let text = std::str::from_utf8(line).map_err(|_| (at(), "not UTF-8".to_owned()))?;
-                return parser.read_ascii_element(text, def).map_err(|_| {
-                    let why = format!("{} are not its numbers in the header's order", quote(text));
-                    (at(), why)
-                });
             },
             Self::Binary(reader, big) => {
+                let parser = Parser::new();
                 let read = if *big {
                     parser.read_big_endian_element(reader, def)
                 } else {
@@ -146,6 +192,62 @@ impl Payload {
             }
         }
     }
+}
+
+/// A line's element.
+fn element<E: Element>(line: &str, def: &ElementDef) -> Result<E, String> {
+    let mut words = line.split_ascii_whitespace();
+    let mut element = E::new();
+    for (name, property) in &def.properties {
+        let mut word = || words.next().ok_or("the line ends before it");
+        let mut read = || match &property.data_type {
+            PropertyType::Scalar(kind) => Ok(element.set_property(name, scalar(word()?, kind)?)),
+            PropertyType::List(_, kind) => {
+                // In a text the length's type limits nothing.
+                let length = word()?;
+                let length: u64 = length
+                    .parse()
+                    .map_err(|_| format!("{} is no length", quote(length)))?;
+                let mut list = Vec::new();
+                for _ in 0..length {
+                    list.push(scalar(word()?, kind)?);
+                }
+                Ok(element.set_list(name, &list))
+            }
+        };
+        let result = read().map_err(|why: String| format!("{name}: {why}"))?;
+        if result == PropertyAccessResult::UnsupportedType {
+            return Err(format!("{name}: the header gives it a wrong type"));
+        }
+    }
+    match words.next() {
+        Some(word) => Err(format!(
+            "{} after the numbers that the header lists",
+            quote(word)
+        )),
+        None => Ok(element),
+    }
+}
+
+/// A word as a number of some type.
+fn scalar(word: &str, kind: &ScalarType) -> Result<Property, String> {
+    let fail = || {
+        format!(
+            "{} is no {}",
+            quote(word),
+            format!("{kind:?}").to_lowercase()
+        )
+    };
+    Ok(match kind {
+        ScalarType::Char => Property::Char(word.parse().map_err(|_| fail())?),
+        ScalarType::UChar => Property::UChar(word.parse().map_err(|_| fail())?),
+        ScalarType::Short => Property::Short(word.parse().map_err(|_| fail())?),
+        ScalarType::UShort => Property::UShort(word.parse().map_err(|_| fail())?),
+        ScalarType::Int => Property::Int(word.parse().map_err(|_| fail())?),
+        ScalarType::UInt => Property::UInt(word.parse().map_err(|_| fail())?),
+        ScalarType::Float => Property::Float(number::parse(word)?),
+        ScalarType::Double => Property::Double(number::parse(word)?),
+    })
 }
 
 /// The edges and points so far.
@@ -188,8 +290,8 @@ impl Content {
                 }
             }
             "face" | "tristrips" if self.kind.wants_faces() => {
-                if !has("vertex_indices") && !has("vertex_index") {
-                    return missing("vertex_indices");
+                if !LISTS.iter().any(|name| has(name)) {
+                    return missing(LISTS[0]);
                 }
             }
             _ => {
@@ -301,16 +403,37 @@ impl PropertyAccess for Row {
 
     fn set_property(&mut self, name: &str, value: Property) -> PropertyAccessResult {
         let done = match name {
-            "x" => number(&value).map(|v| self.point[0] = v),
-            "y" => number(&value).map(|v| self.point[1] = v),
-            "z" => number(&value).map(|v| self.point[2] = v),
+            "x" => real(&value).map(|v| self.point[0] = v),
+            "y" => real(&value).map(|v| self.point[1] = v),
+            "z" => real(&value).map(|v| self.point[2] = v),
             "vertex1" => integer(&value).map(|v| self.ends[0] = v),
             "vertex2" => integer(&value).map(|v| self.ends[1] = v),
-            "vertex_indices" | "vertex_index" => integers(&value).map(|v| self.list = v),
+            _ if LISTS.contains(&name) => integers(&value).map(|v| self.list = v),
             _ => return PropertyAccessResult::Ignored,
         };
         match done {
             Some(()) => PropertyAccessResult::Set,
+            None => PropertyAccessResult::UnsupportedType,
+        }
+    }
+}
+
+/// An element that is read from a text, too.
+trait Element: PropertyAccess {
+    /// What the crate does with a binary file's list, for a text's.
+    fn set_list(&mut self, name: &str, list: &[Property]) -> PropertyAccessResult;
+}
+
+impl Element for Row {
+    fn set_list(&mut self, name: &str, list: &[Property]) -> PropertyAccessResult {
+        if !LISTS.contains(&name) {
+            return PropertyAccessResult::Ignored;
+        }
+        match list.iter().map(integer).collect() {
+            Some(list) => {
+                self.list = list;
+                PropertyAccessResult::Set
+            }
             None => PropertyAccessResult::UnsupportedType,
         }
     }
@@ -325,7 +448,13 @@ impl PropertyAccess for Skipped {
     }
 }
 
-fn number(value: &Property) -> Option<f64> {
+impl Element for Skipped {
+    fn set_list(&mut self, _: &str, _: &[Property]) -> PropertyAccessResult {
+        PropertyAccessResult::Ignored
+    }
+}
+
+fn real(value: &Property) -> Option<f64> {
     match *value {
         Property::Float(v) => Some(f64::from(v)),
         Property::Double(v) => Some(v),
@@ -357,5 +486,71 @@ fn integers(value: &Property) -> Option<Vec<i64>> {
         Property::ListInt(v) => Some(wide(v)),
         Property::ListUInt(v) => Some(wide(v)),
         _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::input::damaged;
+
+    fn segments(input: &Input) -> Result<Vec<frusta::Segment<f64>>, Failure> {
+        let scene = read(input, Some(EdgeChoice::All))?;
+        let mut out = Vec::new();
+        scene.fill(0, scene.len(), &mut out);
+        Ok(out)
+    }
+
+    /// A binary file; whether the first byte is the highest.
+    fn binary(big: bool) -> Vec<u8> {
+        let format = if big { "big" } else { "little" };
+        let mut bytes = format!(
+            "ply\nformat binary_{format}_endian 1.0\nelement vertex 4\nproperty float x\n\
+             property double y\nproperty short z\nelement face 2\n\
+             property list ushort uint vertex_indices\nproperty list char char more\nend_header\n"
+        )
+        .into_bytes();
+        let mut put = |value: &[u8]| {
+            let start = bytes.len();
+            bytes.extend(value);
+            if big {
+                bytes[start..].reverse();
+            }
+        };
+        for i in 0..4_u8 {
+            put(&f32::from(i).to_le_bytes());
+            put(&f64::from(i * i).to_le_bytes());
+            put(&i16::from(i % 2).to_le_bytes());
+        }
+        for face in [&[0_u32, 1, 2][..], &[3, 2, 1, 0]] {
+            put(&(face.len() as u16).to_le_bytes());
+            for index in face {
+                put(&index.to_le_bytes());
+            }
+            put(&[1]);
+            put(&[255]);
+        }
+        bytes
+    }
+
+    #[test]
+    fn damaged_files_are_read_or_refused_and_never_panic() {
+        let text = b"ply\r\nformat ascii 1.0\r\ncomment c\r\nobj_info i\r\nold and odd\r\n\
+            element vertex 5\r\nproperty float x\r\nproperty double y\r\nproperty int z\r\n\
+            property uchar red\r\nelement other 2\r\nproperty list uchar float x\r\n\
+            element face 2\r\nproperty uchar flag\r\nproperty list uchar int vertex_indices\r\n\
+            element edge 2\r\nproperty int vertex1\r\nproperty short vertex2\r\n\
+            element tristrips 1\r\nproperty list int int vertex_index\r\nend_header\r\n\
+            0 0 0 255\r\n1.5 0 1 0\r\n1e1 .25 2 1\r\n0 7. 3 2\r\n\r\n9 9 9 9\r\n2 1.5 2.5\r\n\
+            0\r\n1 3 0 1 2\r\n0 4 1 2 3 4\r\n0 4\r\n4 3\r\n7 0 1 2 -1 2 3 4\r\n"
+            .to_vec();
+        assert_eq!(
+            segments(&Input::of_bytes("a.ply", &text, false))
+                .unwrap()
+                .len(),
+            2 + 7
+        );
+        let samples = [text, binary(false), binary(true)];
+        damaged::check("a.ply", &samples, 30_000, segments);
     }
 }

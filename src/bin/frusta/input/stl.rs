@@ -8,7 +8,7 @@
 
 use super::edges::{PointSet, UniqueEdges};
 use super::lines::{LineError, Lines};
-use super::opened::Input;
+use super::opened::{Input, MARK};
 use super::scene::{Instance, Mesh};
 use super::{EdgeChoice, Scene};
 use crate::failure::{Failure, quote};
@@ -28,6 +28,8 @@ pub(super) fn read(input: &Input, choice: Option<EdgeChoice>) -> Result<Scene, F
     let mut mesh = Triangles::default();
     if kind.wants_faces() {
         if is_text(start, input.size()) {
+            let mark = start.starts_with(MARK);
+            reader.consume(if mark { MARK.len() } else { 0 });
             let read = mesh.read_text(&mut Lines::new(reader));
             read.map_err(|e| input.failure_in_line(e))?;
         } else {
@@ -44,10 +46,12 @@ pub(super) fn read(input: &Input, choice: Option<EdgeChoice>) -> Result<Scene, F
 }
 
 /// Whether a file is a text: it begins like one, and its length is not that of a
-/// binary one. Of a pipe's length nothing is known; there a first line of
-/// letters and a second of `facet` must do.
+/// binary one. Of a pipe's length nothing is known; there a beginning without a
+/// zero byte must do: binary ones have one in their count below 2^24 triangles, and
+/// in attributes beyond.
 fn is_text(start: &[u8], size: Option<u64>) -> bool {
-    let text = start.trim_ascii_start();
+    let text = start.strip_prefix(MARK).unwrap_or(start);
+    let text = text.trim_ascii_start();
     if !text
         .get(..5)
         .is_some_and(|w| w.eq_ignore_ascii_case(b"solid"))
@@ -57,7 +61,7 @@ fn is_text(start: &[u8], size: Option<u64>) -> bool {
     match (size, count(start)) {
         (Some(size), Some(count)) => size != HEADER as u64 + u64::from(count) * TRIANGLE as u64,
         (Some(_), None) => true,
-        (None, _) => start.is_ascii() && !start.contains(&0),
+        (None, _) => !start.contains(&0),
     }
 }
 
@@ -140,7 +144,8 @@ impl Triangles {
         while let Some((number, line)) = lines.next()? {
             last = number;
             let fail = |why: String| (number, why);
-            let text = std::str::from_utf8(line).map_err(|_| fail("not UTF-8".to_owned()))?;
+            // A solid's name may be in any encoding.
+            let text = String::from_utf8_lossy(line);
             let mut words = text.split_ascii_whitespace();
             let Some(keyword) = words.next() else {
                 continue;
@@ -217,4 +222,36 @@ pub(super) fn fill(reader: &mut impl Read, buffer: &mut [u8]) -> Result<usize, S
         }
     }
     Ok(have)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::input::damaged;
+
+    fn segments(input: &Input) -> Result<Vec<frusta::Segment<f64>>, Failure> {
+        let scene = read(input, Some(EdgeChoice::All))?;
+        let mut out = Vec::new();
+        scene.fill(0, scene.len(), &mut out);
+        Ok(out)
+    }
+
+    #[test]
+    fn damaged_files_are_read_or_refused_and_never_panic() {
+        let facet = "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1.5 0\n\
+                     endloop\nendfacet\n";
+        let other = facet.replace('0', "12").to_ascii_uppercase();
+        let text = format!("solid a\n{facet}endsolid a\n solid\n{other}{facet}endsolid\n");
+        let mut binary = b"solid, or so it says".to_vec();
+        binary.resize(80, b' ');
+        binary.extend(6_u32.to_le_bytes());
+        for i in 0..6_u8 {
+            binary.extend([0; 12]);
+            for k in 0..9_u8 {
+                binary.extend(f32::from((i * 7 + k * k) % 23).to_le_bytes());
+            }
+            binary.extend([0; 2]);
+        }
+        damaged::check("a.stl", &[text.into_bytes(), binary], 20_000, segments);
+    }
 }
