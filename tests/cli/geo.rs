@@ -108,6 +108,12 @@ fn a_camera_over_the_earth_sees_to_its_horizon() {
     );
     assert_eq!(classes(31.0, 329.0), [0, 0, 100]);
     let file = folder.name("a.geojson");
+    let found = statistics(&[&file, "--ecef", "--over", "10,50,1e6", "--aspect", "2"]);
+    let flags = found["view"]["flags"].as_str().unwrap();
+    assert_eq!(flags, "--ecef --over 10,50,1000000 --aspect 2");
+    let mut again = vec![file.as_str()];
+    again.extend(flags.split(' '));
+    assert_eq!(statistics(&again)["frustum"], found["frustum"]);
     for (place, part) in [
         ("0,0,0", "the height must be above 0"),
         ("0,0,-5", "the height must be above 0"),

@@ -106,9 +106,31 @@ impl ViewArgs {
         Ok(View {
             frustum,
             deviation: None,
-            flags: parameters.to_string(),
+            flags: match self.over {
+                Some(place) => self.over_flags(place),
+                None => parameters.to_string(),
+            },
             chosen,
         })
+    }
+
+    /// The flags for a camera above the earth, as they were given: its eye has more
+    /// digits than anyone would type.
+    fn over_flags(&self, place: Vec3<f64>) -> String {
+        let [longitude, latitude, height] = place.to_array().map(short);
+        let mut flags = format!("--ecef --over {longitude},{latitude},{height}");
+        let given = [
+            ("fovy", self.fovy),
+            ("aspect", self.aspect),
+            ("near", self.near),
+            ("far", self.far),
+        ];
+        for (name, value) in given {
+            if let Some(value) = value {
+                flags += &format!(" --{name} {}", short(value));
+            }
+        }
+        flags
     }
 }
 

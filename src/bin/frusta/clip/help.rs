@@ -23,7 +23,8 @@ Input
   .geojsonl   The same of many JSON texts, one after the other; also .geojsons, .ndjson.
   With --edges triangles each edge of a mesh comes once, wherever its vertices are split.
   A coordinate that is infinite or NaN is an error. A stream takes the same memory however long it
-  is; to clip a piped one, say where the camera is: its extent is not known beforehand.
+  is (GeoJSON: that of its largest feature). To clip a piped one, say where the camera is: its
+  extent is not known beforehand.
 
 The earth (--ecef)
   From above, the earth's far side is in front of a camera, too, and only a far face cuts it off.
@@ -42,6 +43,7 @@ Output
         contain the entry point, the exit point, the whole segment. Numbers read back to the same
         bits. For outside the fields after class are empty.
   .obj  two vertices and a line element for each part; a vertex and a point element for a touch.
+        Indices count back.
   .glb  glTF binary with a line for each part (a point for a touch), a material for each class; in
         single precision, relative to the node's translation where the frustum is far away.
   .svg .png  a picture; a PNG is the SVG, rasterised. --picture camera: what the camera sees, from

@@ -6,6 +6,7 @@ use crate::input::{self, Bounds, EdgeChoice, Format, Input, Scene, csv, obj};
 use crate::number::Scalar;
 use crate::pipeline::Emit;
 use frusta::{NonFinite, Segment, Vec3};
+use std::sync::OnceLock;
 
 /// Segments in a chunk: few enough that a chunk's results stay in cache.
 const CHUNK: u64 = 4096;
@@ -16,6 +17,8 @@ pub(super) struct Source {
     positions: Positions,
     /// `None` for what stays a stream.
     scene: Option<Scene>,
+    /// Once it has been asked for: a stream is read for it.
+    bounds: OnceLock<Bounds>,
 }
 
 /// Consecutive segments.
@@ -62,6 +65,7 @@ impl Source {
             input,
             positions,
             scene,
+            bounds: OnceLock::new(),
         })
     }
 
@@ -72,6 +76,14 @@ impl Source {
 
     /// A box around all segments; a stream is read once for it.
     pub(super) fn bounds(&self) -> Result<Bounds, Failure> {
+        if let Some(&bounds) = self.bounds.get() {
+            return Ok(bounds);
+        }
+        let bounds = self.find_bounds()?;
+        Ok(*self.bounds.get_or_init(|| bounds))
+    }
+
+    fn find_bounds(&self) -> Result<Bounds, Failure> {
         if let Some(scene) = &self.scene {
             return Ok(scene.bounds());
         }

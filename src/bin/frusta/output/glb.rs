@@ -16,7 +16,8 @@ use std::io::{BufWriter, Read, Seek, SeekFrom, Write};
 
 /// Bytes of a point.
 const POINT: u64 = 12;
-/// glTF's number for a float, for points and for lines.
+/// glTF's numbers for a buffer of vertices, a float, points and lines.
+const VERTICES: u32 = 34962;
 const FLOAT: u32 = 5126;
 const POINTS: u32 = 0;
 const LINES: u32 = 1;
@@ -214,7 +215,9 @@ impl Model {
             }
             let number = accessors.len();
             let length = spool.count * POINT;
-            views.push(json!({"buffer": 0, "byteOffset": start, "byteLength": length}));
+            views.push(json!({
+                "buffer": 0, "byteOffset": start, "byteLength": length, "target": VERTICES,
+            }));
             accessors.push(json!({
                 "bufferView": number, "componentType": FLOAT, "count": spool.count, "type": "VEC3",
                 "min": spool.bounds.low, "max": spool.bounds.high,

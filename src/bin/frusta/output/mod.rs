@@ -21,10 +21,6 @@ use std::sync::Arc;
 pub(crate) struct Formatted {
     /// Text for the file.
     text: Vec<u8>,
-    /// OBJ: which of the parts are single points, as their numbers in the chunk.
-    points: Vec<u32>,
-    /// OBJ: how many parts there are.
-    parts: u32,
     /// GLB: points by class, or a coordinate that is too large.
     points_by_class: Option<Result<[glb::Points; 5], f64>>,
     /// Pictures: what was drawn.
@@ -127,7 +123,7 @@ impl Format {
         match self {
             Self::None => {}
             Self::Csv => csv::format(first, clips, &mut out.text),
-            Self::Obj => obj::format(clips, &mut out),
+            Self::Obj => obj::format(clips, &mut out.text),
             Self::Glb(centre) => out.points_by_class = Some(glb::format(centre, clips)),
             Self::Picture(canvas) => out.traced = canvas.trace(segments, clips),
         }
@@ -139,10 +135,8 @@ impl Format {
 pub(crate) enum Writer {
     /// No file.
     None,
-    /// Rows, written as they come.
-    Csv(WholeFile),
-    /// Vertices, written as they come; then the elements.
-    Obj(WholeFile, obj::Elements),
+    /// Text, written as it comes.
+    Text(WholeFile),
     /// Points, kept in files of their own until the end.
     Glb(WholeFile, glb::Model),
     /// A picture, written at the end.
@@ -164,11 +158,11 @@ impl Writer {
             Format::None => Self::None,
             Format::Csv => {
                 out.write(csv::HEADER.as_bytes())?;
-                Self::Csv(out)
+                Self::Text(out)
             }
             Format::Obj => {
                 out.write(obj::HEADER.as_bytes())?;
-                Self::Obj(out, obj::Elements::default())
+                Self::Text(out)
             }
             Format::Glb(centre) => Self::Glb(out, glb::Model::new(*centre)?),
             Format::Picture(canvas) => Self::Picture(out, kind, Picture::new(canvas.clone())),
@@ -179,11 +173,7 @@ impl Writer {
     pub(crate) fn accept(&mut self, chunk: &Formatted) -> Result<(), Failure> {
         match self {
             Self::None => Ok(()),
-            Self::Csv(out) => out.write(&chunk.text),
-            Self::Obj(out, elements) => {
-                elements.add(chunk.parts, &chunk.points);
-                out.write(&chunk.text)
-            }
+            Self::Text(out) => out.write(&chunk.text),
             Self::Glb(_, model) => match &chunk.points_by_class {
                 Some(Ok(points)) => model.add(points),
                 Some(Err(value)) => Err(Failure::new(format_args!(
@@ -203,11 +193,7 @@ impl Writer {
     pub(crate) fn finish(self, title: &str, classes: &[u64; 5]) -> Result<(), Failure> {
         match self {
             Self::None => Ok(()),
-            Self::Csv(out) => out.finish(),
-            Self::Obj(mut out, elements) => {
-                elements.write(|text| out.write(text))?;
-                out.finish()
-            }
+            Self::Text(out) => out.finish(),
             Self::Glb(mut out, model) => {
                 model.write(&mut out, title, Theme::Light.palette())?;
                 out.finish()
