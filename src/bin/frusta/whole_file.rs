@@ -32,7 +32,7 @@ pub(crate) struct WholeFile {
 
 enum Target {
     File(NamedTempFile),
-    Stream(Box<dyn Write>),
+    Stream(Box<dyn Write + Send>),
 }
 
 impl Write for Target {

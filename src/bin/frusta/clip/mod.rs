@@ -102,7 +102,8 @@ fn run_as<T: Scalar>(args: &ClipArgs) -> Result<(), Failure> {
     let input = Input::new(&args.file, args.from)?;
     let (name, format) = (input.name().display().to_string(), input.format.name());
     let threads = args.threads.map_or_else(crate::cores, usize::from);
-    let source = threads_of(threads)?.install(|| args.source(input))?;
+    let pool = threads_of(threads)?;
+    let source = pool.install(|| args.source(input))?;
     let view = args.view.view(|| source.bounds())?;
     let accuracy = args.accuracy.unwrap_or(Accuracy::Fast);
     let run = Run {
@@ -117,10 +118,10 @@ fn run_as<T: Scalar>(args: &ClipArgs) -> Result<(), Failure> {
         read: start.elapsed(),
         ..Times::default()
     };
-    let counts = run.clip(&mut writer, &mut times)?;
+    let counts = pool.install(|| run.clip(&mut writer, &mut times))?;
     let finish = Instant::now();
     let title = format!("{name}   {}", view.flags);
-    writer.finish(&title, &counts.classes)?;
+    pool.install(|| writer.finish(&title, &counts.classes))?;
     times.write += finish.elapsed();
     times.total = start.elapsed();
     let (arithmetic, accuracy) = run.engine.arithmetic();
@@ -191,7 +192,7 @@ impl ClipArgs {
     }
 }
 
-/// The threads that read a mesh.
+/// The threads that read a mesh and sum up ink.
 fn threads_of(count: usize) -> Result<rayon::ThreadPool, Failure> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(count).build();
     pool.map_err(|e| Failure::new(format_args!("threads: {e}")))

@@ -24,6 +24,8 @@ use std::sync::Arc;
 
 /// More are drawn as density.
 const MOST_STROKES: u64 = 20_000;
+/// Strokes that are added to the density at a time.
+const BATCH: usize = 1 << 16;
 /// More marks on a density would hide it.
 const MOST_MARKS: usize = 400;
 /// Marks on a density, in the picture's units.
@@ -35,7 +37,7 @@ const LEAST_WIDTH: f64 = 560.0;
 /// A picture in the making.
 pub(crate) struct Picture {
     canvas: Arc<Canvas>,
-    /// Empty once there are too many: then all are in the density.
+    /// Once there are too many, those that are not in the density yet.
     strokes: Vec<Stroke>,
     density: Density,
     /// `None` once there are too many.
@@ -69,27 +71,20 @@ impl Picture {
             kept.extend(marks());
         }
         self.strokes.extend_from_slice(&traced.strokes);
-        if self.is_crowded() {
-            for stroke in std::mem::take(&mut self.strokes) {
-                self.ink(&stroke);
-            }
+        if self.is_crowded() && self.strokes.len() >= BATCH {
+            self.ink();
         }
     }
 
-    /// Adds a stroke to the density.
-    fn ink(&mut self, stroke: &Stroke) {
-        let radius = match stroke.layer {
-            Layer::Touch => TOUCH_RADIUS,
-            Layer::Cut => CUT_RADIUS,
-            layer => {
-                let Stroke {
-                    from, to, weight, ..
-                } = *stroke;
-                return self.density.line(layer, from, to, weight);
-            }
-        };
-        let radius = (radius * self.canvas.unit) as f32;
-        self.density.disc(stroke.layer, stroke.from, radius);
+    /// Moves the strokes to the density.
+    fn ink(&mut self) {
+        let unit = self.canvas.unit;
+        self.density.add(&self.strokes, |layer| match layer {
+            Layer::Touch => Some((TOUCH_RADIUS * unit) as f32),
+            Layer::Cut => Some((CUT_RADIUS * unit) as f32),
+            _ => None,
+        });
+        self.strokes.clear();
     }
 
     fn is_crowded(&self) -> bool {
@@ -97,7 +92,10 @@ impl Picture {
     }
 
     /// The picture as SVG. `classes`: the number of segments by class.
-    pub(crate) fn svg(&self, title: &str, classes: &[u64; 5]) -> Result<String, Failure> {
+    pub(crate) fn svg(mut self, title: &str, classes: &[u64; 5]) -> Result<String, Failure> {
+        if self.is_crowded() {
+            self.ink();
+        }
         let Canvas {
             options,
             unit,
