@@ -246,6 +246,32 @@ fn an_open_file_as_output_is_appended_to() {
     }
 }
 
+#[test]
+fn chunks_that_are_just_full() {
+    let folder = Folder::new();
+    for count in [1, 4095, 4096, 4097, 8192] {
+        let line = |i| format!("{{\"type\":\"LineString\",\"coordinates\":[[0,{i}],[1,{i}]]}}\n");
+        let obj = "v 0 0 0\nv 1 1 1\n".to_owned() + &"l 1 2\n".repeat(count);
+        let obj = folder.write("a.obj", obj);
+        let csv = folder.write("a.csv", "0,0,0,1,1,1\n".repeat(count));
+        let lines: String = (0..count).map(|i| line(i % 9)).collect();
+        let lines = folder.write("a.geojsonl", lines);
+        for args in [
+            vec![&obj[..], "--edges", "lines"],
+            vec![&obj],
+            vec![&csv],
+            vec![&lines],
+        ] {
+            for threads in ["1", "5"] {
+                let flags = [&args[..], &["--threads", threads], &WIDE].concat();
+                let rows = folder.rows(&flags);
+                assert_eq!(rows.len(), count, "{args:?}");
+                assert!(rows[count - 1].starts_with(&format!("{},inside,", count - 1)));
+            }
+        }
+    }
+}
+
 /// A file's name cannot drive the terminal.
 #[cfg(unix)]
 #[test]

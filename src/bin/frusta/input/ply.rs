@@ -501,6 +501,93 @@ mod tests {
         Ok(out)
     }
 
+    fn message(text: &str) -> String {
+        let input = Input::of_bytes("a.ply", text.as_bytes(), false);
+        segments(&input).unwrap_err().to_string()
+    }
+
+    #[test]
+    fn texts_are_read_word_by_word() {
+        let head = "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\n\
+                    property list uchar float weights\nproperty double y\nproperty int z\n\
+                    element edge 1\nproperty uchar vertex1\nproperty uint vertex2\nend_header\n";
+        let body = "\t.5 0  1. +3\n0x1p-3 2 nan 1e9 -1e-2 -4\n0 1\n";
+        let text = format!("{head}{body}");
+        let found = segments(&Input::of_bytes("a.ply", text.as_bytes(), false)).unwrap();
+        let expected = frusta::Segment::new([0.5, 1.0, 3.0], [0.125, -0.01, -4.0]);
+        assert_eq!(found, [expected]);
+        for (old, new, why) in [
+            (
+                "+3",
+                "3 7",
+                "line 12, vertex 0: \"7\" after the numbers that the header lists",
+            ),
+            ("+3", "", "line 12, vertex 0: z: the line ends before it"),
+            ("+3", "3.0", "line 12, vertex 0: z: \"3.0\" is no int"),
+            (".5", "inf", "vertex 0: a coordinate is infinite or NaN"),
+            (".5", "1e39", "vertex 0: a coordinate is infinite or NaN"),
+            (
+                "2 nan",
+                "-2 nan",
+                "line 13, vertex 1: weights: \"-2\" is no length",
+            ),
+            (
+                "0 1\n",
+                "0 256\n",
+                "edge 0: vertex 256 of 2; they count from 0",
+            ),
+            (
+                "0 1\n",
+                "256 1\n",
+                "line 14, edge 0: vertex1: \"256\" is no uchar",
+            ),
+        ] {
+            let text = format!("{head}{}", body.replacen(old, new, 1));
+            assert_eq!(message(&text), format!("a.ply: {why}"));
+        }
+    }
+
+    #[test]
+    fn headers_that_make_no_sense() {
+        let head = "ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nend_header\n";
+        for (old, new, why) in [
+            (
+                "ply\n",
+                "ply \u{b}x\n",
+                "line 1: not PLY: the first line must be ply",
+            ),
+            (
+                "format ascii 1.0\n",
+                "",
+                "line 2: the header has no line that begins with format",
+            ),
+            (
+                "1.0",
+                "1.256",
+                "line 2: \"format ascii 1.256\" makes no sense in the header",
+            ),
+            (
+                "float",
+                "real",
+                "line 4: \"property real x\" makes no sense in the header",
+            ),
+            (
+                "end_header",
+                "element vertex 1",
+                "line 5: a second \"vertex\" here",
+            ),
+            (
+                "end_header",
+                "property int x",
+                "line 5: a second \"x\" here",
+            ),
+            ("end_header", "", "line 6: the header has no end_header"),
+        ] {
+            let text = head.replacen(old, new, 1);
+            assert_eq!(message(&text), format!("a.ply: {why}"), "{text}");
+        }
+    }
+
     /// A binary file; whether the first byte is the highest.
     fn binary(big: bool) -> Vec<u8> {
         let format = if big { "big" } else { "little" };
