@@ -331,3 +331,34 @@ fn a_frustum_has_an_end() {
     assert_eq!(run.status.code(), Some(2));
     assert!(text(&run.stderr).contains("longer than 1048576 bytes"));
 }
+
+/// Where the system has no thread left, or no room for its stack.
+#[cfg(target_os = "linux")]
+#[test]
+fn too_many_threads_are_refused() {
+    let folder = Folder::new();
+    let (mut done, mut refused) = (0, 0);
+    for threads in (60..=180).step_by(8) {
+        let run = Command::new("sh")
+            .args(["-c", "ulimit -v 300000; exec \"$0\" \"$@\""])
+            .arg(env!("CARGO_BIN_EXE_frusta"))
+            .args(["clip", &fixture("six.csv"), "-o", &folder.name("out.csv")])
+            .args(["--threads", &threads.to_string()])
+            .env("MALLOC_ARENA_MAX", "1")
+            .output()
+            .unwrap();
+        let message = text(&run.stderr);
+        assert!(!message.contains("panicked"), "{threads}: {message}");
+        match run.status.code() {
+            Some(0) => done += 1,
+            Some(2) => {
+                refused += 1;
+                assert!(message.starts_with("frusta: threads: "), "{message}");
+                assert!(folder.files().iter().all(|name| name == "out.csv"));
+            }
+            // The last thread may have left no room for a buffer.
+            code => assert!(message.contains("memory allocation"), "{code:?}: {message}"),
+        }
+    }
+    assert!(done > 0 && refused > 0, "{done} {refused}");
+}
