@@ -240,6 +240,19 @@ fn plys() -> Vec<Case> {
     ]
 }
 
+/// An accessor of zeros but for one point.
+fn bare_accessor() -> serde_json::Value {
+    serde_json::json!({
+        "componentType": 5126, "type": "VEC3", "count": 1_000_000_000_u64,
+        "min": [0, 0, 0], "max": [0, 0, 0],
+        "sparse": {
+            "count": 1,
+            "indices": {"bufferView": 1, "componentType": 5123},
+            "values": {"bufferView": 0}
+        }
+    })
+}
+
 fn gltfs() -> Vec<Case> {
     let ice = std::fs::read(fixture("6814_ice_tunnelator.glb")).unwrap();
     let mut claim = ice.clone();
@@ -273,6 +286,11 @@ fn gltfs() -> Vec<Case> {
             "a buffer that is a device",
             "a.gltf",
             changed("/buffers/0/uri", json("\"/dev/zero\"")),
+        ),
+        case(
+            "10^9 points without bytes",
+            "a.gltf",
+            changed("/accessors/0", bare_accessor()),
         ),
         case(
             "nodes in a ring",

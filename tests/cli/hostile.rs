@@ -246,6 +246,32 @@ fn an_open_file_as_output_is_appended_to() {
     }
 }
 
+#[test]
+fn chunks_that_are_just_full() {
+    let folder = Folder::new();
+    for count in [1, 4095, 4096, 4097, 8192] {
+        let line = |i| format!("{{\"type\":\"LineString\",\"coordinates\":[[0,{i}],[1,{i}]]}}\n");
+        let obj = "v 0 0 0\nv 1 1 1\n".to_owned() + &"l 1 2\n".repeat(count);
+        let obj = folder.write("a.obj", obj);
+        let csv = folder.write("a.csv", "0,0,0,1,1,1\n".repeat(count));
+        let lines: String = (0..count).map(|i| line(i % 9)).collect();
+        let lines = folder.write("a.geojsonl", lines);
+        for args in [
+            vec![&obj[..], "--edges", "lines"],
+            vec![&obj],
+            vec![&csv],
+            vec![&lines],
+        ] {
+            for threads in ["1", "5"] {
+                let flags = [&args[..], &["--threads", threads], &WIDE].concat();
+                let rows = folder.rows(&flags);
+                assert_eq!(rows.len(), count, "{args:?}");
+                assert!(rows[count - 1].starts_with(&format!("{},inside,", count - 1)));
+            }
+        }
+    }
+}
+
 /// A file's name cannot drive the terminal.
 #[cfg(unix)]
 #[test]
@@ -304,4 +330,35 @@ fn a_frustum_has_an_end() {
     let run = clip([&fixture("six.csv"), "--frustum", &file]);
     assert_eq!(run.status.code(), Some(2));
     assert!(text(&run.stderr).contains("longer than 1048576 bytes"));
+}
+
+/// Where the system has no thread left, or no room for its stack.
+#[cfg(target_os = "linux")]
+#[test]
+fn too_many_threads_are_refused() {
+    let folder = Folder::new();
+    let (mut done, mut refused) = (0, 0);
+    for threads in (60..=180).step_by(8) {
+        let run = Command::new("sh")
+            .args(["-c", "ulimit -v 300000; exec \"$0\" \"$@\""])
+            .arg(env!("CARGO_BIN_EXE_frusta"))
+            .args(["clip", &fixture("six.csv"), "-o", &folder.name("out.csv")])
+            .args(["--threads", &threads.to_string()])
+            .env("MALLOC_ARENA_MAX", "1")
+            .output()
+            .unwrap();
+        let message = text(&run.stderr);
+        assert!(!message.contains("panicked"), "{threads}: {message}");
+        match run.status.code() {
+            Some(0) => done += 1,
+            Some(2) => {
+                refused += 1;
+                assert!(message.starts_with("frusta: threads: "), "{message}");
+                assert!(folder.files().iter().all(|name| name == "out.csv"));
+            }
+            // The last thread may have left no room for a buffer.
+            code => assert!(message.contains("memory allocation"), "{code:?}: {message}"),
+        }
+    }
+    assert!(done > 0 && refused > 0, "{done} {refused}");
 }

@@ -34,9 +34,9 @@ pub(crate) fn run<J: Send, R: Send, W: FnMut(J) -> Result<R, Failure>>(
             inputs.push(input);
             outputs.push(output);
             let worker = &worker;
-            scope.spawn(move || work(worker(), &jobs, &results));
+            start(scope, move || work(worker(), &jobs, &results))?;
         }
-        scope.spawn(move || distribute(produce, &inputs));
+        start(scope, move || distribute(produce, &inputs))?;
         for output in outputs.iter().cycle() {
             // A worker that hangs up has no job left, nor has any after it.
             let Ok(result) = output.recv() else {
@@ -46,6 +46,18 @@ pub(crate) fn run<J: Send, R: Send, W: FnMut(J) -> Result<R, Failure>>(
         }
         Ok(())
     })
+}
+
+/// Starts a thread, if the system has one left. Those that run already end when
+/// their channels do.
+fn start<'scope>(
+    scope: &'scope thread::Scope<'scope, '_>,
+    body: impl FnOnce() + Send + 'scope,
+) -> Result<(), Failure> {
+    let started = thread::Builder::new().spawn_scoped(scope, body);
+    started
+        .map(drop)
+        .map_err(|e| Failure::new(format_args!("threads: {e}")))
 }
 
 fn work<J, R>(

@@ -301,6 +301,21 @@ mod tests {
     }
 
     #[test]
+    fn a_block_may_end_anywhere_in_a_row() {
+        let rows = "1,2,3,4,5,6\r\n\r\n#\r\n\"7\",8,9,10,11,12\r\n";
+        for shift in 0..=rows.len() {
+            let comment = "x".repeat(BLOCK - 3 - shift);
+            let text = format!("#{comment}\r\n{rows}");
+            let segments = read(&text).unwrap();
+            let expected = [
+                Segment::new([1.0, 2.0, 3.0], [4.0, 5.0, 6.0]),
+                Segment::new([7.0, 8.0, 9.0], [10.0, 11.0, 12.0]),
+            ];
+            assert_eq!(segments, expected, "{shift}");
+        }
+    }
+
+    #[test]
     fn rows_are_lines() {
         let row = "1,2,3,4,5,6\n";
         for bad in [

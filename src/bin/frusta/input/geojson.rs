@@ -132,10 +132,7 @@ impl<'a, 'b> Walk<'a, 'b> {
 
     fn json(&mut self, json: &GeoJson) -> Result<(), Reason> {
         match json {
-            GeoJson::Geometry(geometry) => {
-                self.feature += 1;
-                self.geometry(geometry)
-            }
+            GeoJson::Geometry(geometry) => self.numbered(Some(geometry)),
             GeoJson::Feature(feature) => self.feature(feature),
             GeoJson::FeatureCollection(list) => {
                 list.features.iter().try_for_each(|f| self.feature(f))
@@ -144,14 +141,15 @@ impl<'a, 'b> Walk<'a, 'b> {
     }
 
     fn feature(&mut self, feature: &Feature) -> Result<(), Reason> {
+        self.numbered(feature.geometry.as_ref())
+    }
+
+    /// A feature's geometry, or one alone.
+    fn numbered(&mut self, geometry: Option<&Geometry>) -> Result<(), Reason> {
         let number = self.feature;
         self.feature += 1;
-        match &feature.geometry {
-            Some(geometry) => self
-                .geometry(geometry)
-                .map_err(|why| format!("feature {number}: {why}")),
-            None => Ok(()),
-        }
+        let walked = geometry.map_or(Ok(()), |geometry| self.geometry(geometry));
+        walked.map_err(|why| format!("feature {number}: {why}"))
     }
 
     fn geometry(&mut self, geometry: &Geometry) -> Result<(), Reason> {

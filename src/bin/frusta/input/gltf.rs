@@ -36,7 +36,7 @@ const HARMLESS: [&str; 6] = [
 const MISSING: [&str; 1] = ["EXT_mesh_gpu_instancing"];
 
 /// The attribute that holds the points.
-const POSITIONS: Checked<gltf::Semantic> = Checked::Valid(gltf::Semantic::Positions);
+pub(super) const POSITIONS: Checked<gltf::Semantic> = Checked::Valid(gltf::Semantic::Positions);
 
 /// Reads a file's edges.
 pub(super) fn read(input: &Input, choice: Option<EdgeChoice>) -> Result<Scene, Failure> {

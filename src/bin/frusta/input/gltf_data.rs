@@ -21,6 +21,8 @@ use std::path::Path;
 /// A document and its buffers.
 pub(super) struct Data<'a> {
     root: &'a json::Root,
+    /// Points of meshes that no bytes stand behind: see [`zeros`].
+    bare: u64,
     buffers: Vec<Cow<'a, [u8]>>,
 }
 
@@ -47,7 +49,12 @@ impl<'a> Data<'a> {
             }
             buffers.push(bytes);
         }
-        Ok(Self { root, buffers })
+        let bare = bare_points(root);
+        Ok(Self {
+            root,
+            bare,
+            buffers,
+        })
     }
 
     /// The part of a buffer that a view shows.
@@ -165,7 +172,7 @@ pub(super) fn positions(
                         .map(point),
                 );
             }
-            None => out.extend(zeros(accessor)?),
+            None => out.extend(zeros(data, accessor)?),
         }
         if let Some(sparse) = &accessor.sparse {
             let places = sparse_indices(data, sparse, accessor.count.0)?;
@@ -240,17 +247,29 @@ fn sparse_indices(
     }
 }
 
-/// The points of an accessor without a view. Its count has no bytes behind it,
-/// so it is bounded here.
-fn zeros(accessor: &json::Accessor) -> Result<impl Iterator<Item = Vec3<f64>>, String> {
-    const MOST: u64 = 1 << 24;
-    let count = accessor.count.0;
-    if count > MOST {
+/// The points of an accessor without a view. Its count has no bytes behind it, so
+/// those of a whole file are bounded here.
+fn zeros(
+    data: &Data<'_>,
+    accessor: &json::Accessor,
+) -> Result<impl Iterator<Item = Vec3<f64>>, String> {
+    const MOST: u64 = 1 << 20;
+    if data.bare > MOST {
         return Err(format!(
-            "{count} points without a buffer view; at most {MOST} are read"
+            "{} points without a buffer view in all; at most {MOST} are read",
+            data.bare
         ));
     }
-    Ok((0..count).map(|_| Vec3::default()))
+    Ok((0..accessor.count.0).map(|_| Vec3::default()))
+}
+
+/// How many points meshes have from accessors without a view.
+fn bare_points(root: &json::Root) -> u64 {
+    let primitives = root.meshes.iter().flat_map(|mesh| &mesh.primitives);
+    let positions = primitives.filter_map(|p| p.attributes.get(&super::gltf::POSITIONS));
+    let accessors = positions.filter_map(|index| root.accessors.get(index.value()));
+    let bare = accessors.filter(|accessor| accessor.buffer_view.is_none());
+    bare.fold(0, |sum, accessor| sum.saturating_add(accessor.count.0))
 }
 
 fn types(accessor: &json::Accessor) -> (DataType, Dimensions) {

@@ -14,6 +14,7 @@ mod lines;
 pub(crate) mod obj;
 mod opened;
 mod ply;
+mod ply_header;
 mod scene;
 mod stl;
 pub(crate) mod wgs84;

@@ -1,15 +1,14 @@
 //! PLY, text and binary: `edge` elements as lines, `face` and `tristrips` as
 //! triangles' (polygons') edges, each once.
 //!
-//! The `ply-rs-bw` crate reads the header and binary elements. The header is cut
-//! out here first, within a length, and elements are read one by one: what a
-//! header claims is never allocated. Names must differ, since the crate keeps the
-//! last of equal ones. Texts are read here: the crate knows neither `.5` nor `5.`,
-//! and passes over what a line has too much.
+//! The `ply-rs-bw` crate reads the header and binary elements, one by one: what a
+//! header claims is never allocated. Texts are read here: the crate knows neither
+//! `.5` nor `5.`, and passes over what a line has too much.
 
 use super::edges::UniqueEdges;
-use super::lines::{LONGEST, Lines};
+use super::lines::Lines;
 use super::opened::{Input, Reader};
+use super::ply_header::{self, Fault};
 use super::scene::{Instance, Mesh};
 use super::{EdgeChoice, Scene};
 use crate::failure::{Failure, quote};
@@ -17,26 +16,17 @@ use crate::number;
 use frusta::Vec3;
 use ply_rs_bw::parser::Parser;
 use ply_rs_bw::ply::{
-    ElementDef, Encoding, Header, Property, PropertyAccess, PropertyAccessResult, PropertyType,
-    ScalarType,
+    ElementDef, Encoding, Property, PropertyAccess, PropertyAccessResult, PropertyType, ScalarType,
 };
-use std::collections::HashSet;
-use std::io::BufRead;
 
 /// The names of a face's list of vertices.
 const LISTS: [&str; 2] = ["vertex_indices", "vertex_index"];
-
-/// The longest name in a header, in bytes; names are part of messages.
-const LONGEST_NAME: usize = 100;
-
-/// What an error is about and the reason.
-type Fault = (String, String);
 
 /// Reads a file's edges.
 pub(super) fn read(input: &Input, choice: Option<EdgeChoice>) -> Result<Scene, Failure> {
     let fail = |(place, why): Fault| input.failure_at(place, why);
     let mut reader = input.open()?;
-    let (header, lines) = header(&mut reader).map_err(fail)?;
+    let (header, lines) = ply_header::read(&mut reader).map_err(fail)?;
     let has = |name: &str| header.elements.get(name).is_some_and(|e| e.count > 0);
     let kind = choice.unwrap_or(if has("edge") {
         EdgeChoice::Lines
@@ -56,97 +46,6 @@ pub(super) fn read(input: &Input, choice: Option<EdgeChoice>) -> Result<Scene, F
         content.element(&mut payload, element).map_err(fail)?;
     }
     content.finish().map_err(fail)
-}
-
-/// The header and the number of its lines.
-///
-/// The crate gets line feeds alone, and a comment for each line that is none of
-/// the format's: old writers forgot that word.
-fn header(reader: &mut Reader) -> Result<(Header, u64), Fault> {
-    let fail = |(number, why)| (format!("line {number}"), why);
-    let not_ply = || fail((1, "not PLY: the first line must be ply".to_owned()));
-    let start = reader.fill_buf().map_err(|e| fail((1, e.to_string())))?;
-    if !start.trim_ascii_start().starts_with(b"ply") {
-        return Err(not_ply());
-    }
-    let mut lines = Lines::new(reader);
-    let (mut text, mut last) = (Vec::new(), 0);
-    let mut names = Names::default();
-    while let Some((number, line)) = lines.next().map_err(fail)? {
-        last = number;
-        let line = line.trim_ascii();
-        if number == 1 && line != b"ply" {
-            return Err(not_ply());
-        }
-        if names.add(line).map_err(|why| fail((number, why)))? {
-            text.extend(line);
-        } else {
-            text.extend(b"comment");
-        }
-        text.push(b'\n');
-        if line == b"end_header" {
-            return Ok((parsed(&text)?, number));
-        }
-        if text.len() > LONGEST {
-            break;
-        }
-    }
-    Err(fail((last + 1, "the header has no end_header".to_owned())))
-}
-
-fn parsed(text: &[u8]) -> Result<Header, Fault> {
-    let lines = || text.split(|&b| b == b'\n');
-    let format = lines().position(|line| line.starts_with(b"format"));
-    let Some(format) = format else {
-        let why = "the header has no line that begins with format".to_owned();
-        return Err(("line 2".to_owned(), why));
-    };
-    let parsed = Parser::<Row>::new().read_ply_header(&mut &text[..]);
-    parsed.map_err(|e| {
-        // The crate's own messages are a parser's; the line says more. It names
-        // none where the format is at fault, or a line that is not UTF-8.
-        let torn = || lines().position(|line| std::str::from_utf8(line).is_err());
-        let index = e.line().map(|n| n - 1).or_else(torn).unwrap_or(format);
-        let line = String::from_utf8_lossy(lines().nth(index).unwrap_or_default());
-        let why = format!("{} makes no sense in the header", quote(&line));
-        (format!("line {}", index + 1), why)
-    })
-}
-
-/// The names of elements and of the last one's properties.
-#[derive(Default)]
-struct Names {
-    elements: HashSet<Vec<u8>>,
-    properties: HashSet<Vec<u8>>,
-}
-
-impl Names {
-    /// Takes in a line; whether it is one of the format's.
-    fn add(&mut self, line: &[u8]) -> Result<bool, String> {
-        let words = || {
-            line.split(u8::is_ascii_whitespace)
-                .filter(|w| !w.is_empty())
-        };
-        let (names, name) = match words().next() {
-            Some(b"element") => {
-                self.properties.clear();
-                (&mut self.elements, words().nth(1))
-            }
-            Some(b"property") => (&mut self.properties, words().next_back()),
-            word => return Ok(matches!(word, Some(b"ply" | b"format" | b"end_header"))),
-        };
-        match name {
-            Some(name) if name.len() > LONGEST_NAME => {
-                let name = String::from_utf8_lossy(name);
-                Err(format!("the name {} is too long", quote(&name)))
-            }
-            Some(name) if !names.insert(name.to_vec()) => {
-                let name = String::from_utf8_lossy(name);
-                Err(format!("a second {} here", quote(&name)))
-            }
-            _ => Ok(true),
-        }
-    }
 }
 
 /// What follows the header.
@@ -499,6 +398,52 @@ mod tests {
         let mut out = Vec::new();
         scene.fill(0, scene.len(), &mut out);
         Ok(out)
+    }
+
+    fn message(text: &str) -> String {
+        let input = Input::of_bytes("a.ply", text.as_bytes(), false);
+        segments(&input).unwrap_err().to_string()
+    }
+
+    #[test]
+    fn texts_are_read_word_by_word() {
+        let head = "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\n\
+                    property list uchar float weights\nproperty double y\nproperty int z\n\
+                    element edge 1\nproperty uchar vertex1\nproperty uint vertex2\nend_header\n";
+        let body = "\t.5 0  1. +3\n0x1p-3 2 nan 1e9 -1e-2 -4\n0 1\n";
+        let text = format!("{head}{body}");
+        let found = segments(&Input::of_bytes("a.ply", text.as_bytes(), false)).unwrap();
+        let expected = frusta::Segment::new([0.5, 1.0, 3.0], [0.125, -0.01, -4.0]);
+        assert_eq!(found, [expected]);
+        for (old, new, why) in [
+            (
+                "+3",
+                "3 7",
+                "line 12, vertex 0: \"7\" after the numbers that the header lists",
+            ),
+            ("+3", "", "line 12, vertex 0: z: the line ends before it"),
+            ("+3", "3.0", "line 12, vertex 0: z: \"3.0\" is no int"),
+            (".5", "inf", "vertex 0: a coordinate is infinite or NaN"),
+            (".5", "1e39", "vertex 0: a coordinate is infinite or NaN"),
+            (
+                "2 nan",
+                "-2 nan",
+                "line 13, vertex 1: weights: \"-2\" is no length",
+            ),
+            (
+                "0 1\n",
+                "0 256\n",
+                "edge 0: vertex 256 of 2; they count from 0",
+            ),
+            (
+                "0 1\n",
+                "256 1\n",
+                "line 14, edge 0: vertex1: \"256\" is no uchar",
+            ),
+        ] {
+            let text = format!("{head}{}", body.replacen(old, new, 1));
+            assert_eq!(message(&text), format!("a.ply: {why}"));
+        }
     }
 
     /// A binary file; whether the first byte is the highest.
