@@ -89,7 +89,7 @@ impl ViewArgs {
         if let Some(fovy) = self.fovy {
             // The library's own message is in radians.
             if !(fovy > 0.0 && fovy < 180.0) {
-                let why = format_args!("--fovy is {}; it must be between 0 and 180", short(fovy));
+                let why = format!("--fovy is {}; it must be between 0 and 180", short(fovy));
                 return Err(Failure::new(why));
             }
             parameters.lens = Lens::Fovy(fovy);
