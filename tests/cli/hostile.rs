@@ -1,9 +1,9 @@
 //! Files that are odd rather than bad: byte order marks, line ends, pipes with
 //! names, links, and names that hold anything.
 
-use super::{Folder, WIDE, clip, fixture, text};
+use super::{Folder, WIDE, clip, fixture, started, text};
 use std::io::Write;
-use std::process::{Command, Output, Stdio};
+use std::process::{Command, Output};
 use std::time::Duration;
 
 /// One small file of each text format.
@@ -106,13 +106,7 @@ fn a_pipe_may_give_its_first_bytes_one_by_one() {
         .replace("solid a", "solid Geh\u{e4}use")
         .into_bytes();
     for (format, bytes) in [("stl", stl), ("gltf", glb)] {
-        let mut child = Command::new(env!("CARGO_BIN_EXE_frusta"))
-            .args(["clip", "-", "--from", format])
-            .stdin(Stdio::piped())
-            .stdout(Stdio::null())
-            .stderr(Stdio::piped())
-            .spawn()
-            .unwrap();
+        let mut child = started(&["-", "--from", format]);
         let mut stdin = child.stdin.take().unwrap();
         for byte in &bytes[..3] {
             stdin.write_all(&[*byte]).unwrap();

@@ -20,7 +20,7 @@ use frusta::{Real, Segment};
 use serde_json::Value;
 use std::ffi::{OsStr, OsString};
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::process::{Child, Command, Output, Stdio};
 
 /// Flags of a frustum that takes in everything in a small scene.
 const WIDE: [&str; 10] = [
@@ -56,6 +56,18 @@ fn statistics(args: &[&str]) -> Value {
         text(&output.stderr)
     );
     serde_json::from_slice(&output.stdout).unwrap()
+}
+
+/// Starts `frusta clip`, all its streams held.
+fn started(args: &[&str]) -> Child {
+    Command::new(env!("CARGO_BIN_EXE_frusta"))
+        .arg("clip")
+        .args(args)
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap()
 }
 
 fn text(bytes: &[u8]) -> String {

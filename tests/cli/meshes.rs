@@ -5,16 +5,8 @@ use std::fmt::Write;
 
 /// The corners of a cube's twelve triangles.
 fn cube() -> Vec<[[f64; 3]; 3]> {
-    let corner = |i: u32| [i & 1, i >> 1 & 1, i >> 2 & 1].map(f64::from);
-    let faces = [
-        [0, 1, 3, 2],
-        [4, 5, 7, 6],
-        [0, 1, 5, 4],
-        [2, 3, 7, 6],
-        [0, 2, 6, 4],
-        [1, 3, 7, 5],
-    ];
-    faces
+    let corner = |i: i32| [i & 1, i >> 1 & 1, i >> 2 & 1].map(f64::from);
+    QUADS
         .iter()
         .flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]])
         .map(|t| t.map(corner))

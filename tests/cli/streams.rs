@@ -1,20 +1,13 @@
 //! Standard input and output, and what stays a stream.
 
-use super::{Folder, WIDE, clip, fixture, statistics, text};
+use super::{Folder, WIDE, clip, fixture, started, statistics, text};
 use std::io::{Read, Write};
 use std::process::{Command, Stdio};
 
 /// Runs `frusta clip` with something on its standard input; exit code, output,
 /// messages.
 fn piped(args: &[&str], input: &[u8]) -> (Option<i32>, String, String) {
-    let mut child = Command::new(env!("CARGO_BIN_EXE_frusta"))
-        .arg("clip")
-        .args(args)
-        .stdin(Stdio::piped())
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .unwrap();
+    let mut child = started(args);
     let mut stdin = child.stdin.take().unwrap();
     let input = input.to_vec();
     // A command that refuses its input may close it early.
@@ -115,14 +108,8 @@ fn lines_of_an_obj_are_the_same_streamed_and_whole() {
 
 #[test]
 fn a_reader_that_has_seen_enough_ends_the_run() {
-    let mut child = Command::new(env!("CARGO_BIN_EXE_frusta"))
-        .args(["clip", "-", "--from", "csv", "-o", "-", "--to", "csv"])
-        .args(WIDE)
-        .stdin(Stdio::piped())
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .unwrap();
+    let args = ["-", "--from", "csv", "-o", "-", "--to", "csv"];
+    let mut child = started(&[&args, &WIDE[..]].concat());
     let mut stdin = child.stdin.take().unwrap();
     let feeder = std::thread::spawn(move || {
         // Endless, until the command goes away.

@@ -24,7 +24,7 @@ use std::process::ExitCode;
 
 /// Clipping and culling against view frusta, exactly.
 #[derive(Parser)]
-#[command(version, max_term_width = 100, after_help = ALL_EXIT_CODES)]
+#[command(version, max_term_width = 100, after_help = format!("{EXIT_CODES}\n\n{START}"))]
 struct Cli {
     #[command(subcommand)]
     command: Command,
@@ -44,20 +44,13 @@ enum Command {
 pub(crate) const EXIT_CODES: &str = "\
 Exit codes:
   0  done
+  1  report, verify, samples show: an exact answer is wrong
   2  wrong usage, or a file that cannot be read, makes no sense or cannot be written; one line on
      the error stream names the file, the place in it and the reason, and no output file is left
   130  interrupted; no unfinished output file is left";
 
-/// The codes of all commands.
-const ALL_EXIT_CODES: &str = "\
-Exit codes:
-  0  done
-  1  report, verify, samples show: an exact answer is wrong
-  2  wrong usage, or a file that cannot be read, makes no sense or cannot be written; one line on
-     the error stream names the file, the place in it and the reason, and no output file is left
-  130  interrupted; no unfinished output file is left
-
-Start with: frusta clip FILE, frusta samples list, frusta clip --help";
+/// What to try first.
+const START: &str = "Start with: frusta clip FILE, frusta samples list, frusta clip --help";
 
 /// The exit code of a failure; `clap` uses the same for wrong usage.
 const FAILED: u8 = 2;

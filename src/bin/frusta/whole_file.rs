@@ -27,7 +27,7 @@ pub(crate) struct WholeFile {
     /// What messages call it, and where it is.
     path: PathBuf,
     place: PathBuf,
-    out: Option<BufWriter<Target>>,
+    out: BufWriter<Target>,
 }
 
 enum Target {
@@ -94,26 +94,21 @@ impl WholeFile {
         Ok(Self {
             path: path.to_owned(),
             place,
-            out: Some(BufWriter::with_capacity(BUFFER, target)),
+            out: BufWriter::with_capacity(BUFFER, target),
         })
     }
 
     /// Appends bytes.
     pub(crate) fn write(&mut self, bytes: &[u8]) -> Result<(), Failure> {
-        match &mut self.out {
-            Some(out) => out.write_all(bytes).map_err(|e| failure(&self.path, &e)),
-            None => Ok(()),
-        }
+        let written = self.out.write_all(bytes);
+        written.map_err(|e| failure(&self.path, &e))
     }
 
     /// Gives the file its name.
     pub(crate) fn finish(mut self) -> Result<(), Failure> {
-        let Some(mut out) = self.out.take() else {
-            return Ok(());
-        };
         let fail = |e: &io::Error| failure(&self.path, e);
-        out.flush().map_err(|e| fail(&e))?;
-        match out.into_inner() {
+        self.out.flush().map_err(|e| fail(&e))?;
+        match self.out.into_inner() {
             Ok(Target::File(file)) => {
                 let mut unfinished = UNFINISHED.lock().unwrap_or_else(PoisonError::into_inner);
                 let temporary = file.path().to_owned();

@@ -59,6 +59,13 @@ impl UniqueEdges {
         let same = first_at_same_place(points);
         for edge in &mut self.0 {
             *edge = edge.map(|v| same[v as usize]);
+        }
+        self.finish_set()
+    }
+
+    /// The same between the points of a [`PointSet`], which are one a place.
+    pub(crate) fn finish_set(mut self) -> Vec<[u32; 2]> {
+        for edge in &mut self.0 {
             edge.sort_unstable();
         }
         self.0.retain(|[a, b]| a != b);

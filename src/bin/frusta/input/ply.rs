@@ -394,10 +394,7 @@ mod tests {
     use crate::input::damaged;
 
     fn segments(input: &Input) -> Result<Vec<frusta::Segment<f64>>, Failure> {
-        let scene = read(input, Some(EdgeChoice::All))?;
-        let mut out = Vec::new();
-        scene.fill(0, scene.len(), &mut out);
-        Ok(out)
+        read(input, Some(EdgeChoice::All)).map(|scene| scene.segments())
     }
 
     fn message(text: &str) -> String {

@@ -164,6 +164,14 @@ impl Scene {
         }
     }
 
+    /// All segments.
+    #[cfg(test)]
+    pub(crate) fn segments(&self) -> Vec<Segment<f64>> {
+        let mut out = Vec::new();
+        self.fill(0, self.len(), &mut out);
+        out
+    }
+
     /// Where a segment comes from, for messages.
     pub(crate) fn place(&self, index: u64) -> String {
         let i = self.instance_of(index);

@@ -37,10 +37,9 @@ pub(super) fn read(input: &Input, choice: Option<EdgeChoice>) -> Result<Scene, F
                 .map_err(|(byte, why)| input.failure_at(format_args!("byte {byte}"), why))?;
         }
     }
-    let points = mesh.points.finish();
     let mesh = Mesh {
-        edges: mesh.edges.finish(&points),
-        points,
+        edges: mesh.edges.finish_set(),
+        points: mesh.points.finish(),
     };
     Ok(Scene::new(vec![mesh], vec![Instance::PLAIN], kind))
 }
@@ -230,10 +229,7 @@ mod tests {
     use crate::input::damaged;
 
     fn segments(input: &Input) -> Result<Vec<frusta::Segment<f64>>, Failure> {
-        let scene = read(input, Some(EdgeChoice::All))?;
-        let mut out = Vec::new();
-        scene.fill(0, scene.len(), &mut out);
-        Ok(out)
+        read(input, Some(EdgeChoice::All)).map(|scene| scene.segments())
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! Strokes, shapes and text as SVG.
 
-use crate::picture::Palette;
+use crate::picture::{Palette, escaped};
 use std::fmt::Write;
 
 /// A place in a picture: pixels to the right and downwards.
@@ -158,32 +158,11 @@ impl Canvas {
     fn set(&mut self, x: f64, y: f64, anchor: &str, text: &str, font: Type) {
         let Type { size, bold, colour } = font;
         let weight = if bold { " font-weight=\"bold\"" } else { "" };
-        let text = text
-            .replace('&', "&amp;")
-            .replace('<', "&lt;")
-            .replace('>', "&gt;");
+        let text = escaped(text);
         let _ = writeln!(
             self.svg,
             "<text x=\"{x:.2}\" y=\"{y:.2}\" font-size=\"{size}\" text-anchor=\"{anchor}\" \
              fill=\"{colour}\"{weight}>{text}</text>"
         );
     }
-}
-
-/// Breaks text into lines of about so many characters.
-pub(super) fn wrap(text: &str, most: usize) -> Vec<String> {
-    let mut lines = vec![String::new()];
-    for word in text.split_whitespace() {
-        let used = lines.last().map_or(0, |line| line.chars().count());
-        if used > 0 && used + 1 + word.chars().count() > most {
-            lines.push(String::new());
-        }
-        if let Some(line) = lines.last_mut() {
-            if !line.is_empty() {
-                line.push(' ');
-            }
-            line.push_str(word);
-        }
-    }
-    lines
 }

@@ -1,13 +1,14 @@
 //! One sample, large: the frustum, both trapezoids, the parameters, the words.
 
 use super::camera::Camera;
-use super::canvas::{Canvas, Pen, Place, Type, wrap};
+use super::canvas::{Canvas, Pen, Place, Type};
 use super::legend;
 use super::planar::{self, Frame, Plane};
 use super::spatial;
 use super::strand::Sizes;
 use crate::number::short;
 use crate::picture::Palette;
+use crate::picture::wrapped;
 use crate::samples::case::{Case, sets};
 use crate::samples::labels;
 use crate::samples::show::intervals;
@@ -164,7 +165,7 @@ fn words(canvas: &mut Canvas, case: &Case, top: f64) {
     if !said.is_empty() {
         lines.push(said.join("; "));
     }
-    lines.extend(wrap(&format!("Reason: {}.", case.sample.reason), 125));
+    lines.extend(wrapped(&format!("Reason: {}.", case.sample.reason), 125));
     for (i, line) in lines.iter().enumerate() {
         canvas.text([MARGIN, top + 26.0 * i as f64], line, type_);
     }
