@@ -4,12 +4,17 @@ mod paper;
 mod paper_answers;
 mod paper_table;
 mod paper_timing;
+mod survey;
 mod verify;
 mod verify_table;
 
 pub use paper::{PaperRow, PaperTable, Tier, paper_rounds, paper_table, rotated_poses};
 pub use paper_answers::{PaperFailure, Score, Topology};
 pub use paper_timing::Timing;
+pub use survey::{
+    Survey, SurveyAlgorithm, SurveyError, SurveyRow, SurveyTier, SurveyWitness, SurveyWorst,
+    UnknownName,
+};
 pub use verify::{ExactClipper, FamilyRow, Options, Subject, Witness, verify, verify_watched};
 pub use verify_table::VerifyTable;
 

@@ -1,0 +1,288 @@
+//! What a survey says: a row for each algorithm, tier and family, and the inputs
+//! that were worst.
+
+use crate::samples::Family;
+use std::fmt;
+use std::str::FromStr;
+
+/// With which arithmetic, in which scalar type, and how exact the points are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum SurveyTier {
+    /// The textbook's algorithm in `f32`.
+    PlainF32,
+    /// The textbook's algorithm in `f64`.
+    PlainF64,
+    /// The same with fused multiply-add wherever a product is added.
+    FmaF64,
+    /// Exact decisions, `Accuracy::Fast`, `f64`.
+    ExactFast,
+    /// Exact decisions, `Accuracy::Nearest`, `f64`.
+    ExactNearest,
+    /// Exact decisions, `Accuracy::Inward`, `f64`.
+    ExactInward,
+    /// Exact decisions, `Accuracy::Fast`, `f32`.
+    ExactFastF32,
+    /// Exact decisions, `Accuracy::Nearest`, `f32`.
+    ExactNearestF32,
+    /// Exact decisions, `Accuracy::Inward`, `f32`.
+    ExactInwardF32,
+}
+
+impl SurveyTier {
+    /// All tiers, in the order of tables.
+    pub const ALL: [SurveyTier; 9] = [
+        SurveyTier::PlainF32,
+        SurveyTier::PlainF64,
+        SurveyTier::FmaF64,
+        SurveyTier::ExactFast,
+        SurveyTier::ExactNearest,
+        SurveyTier::ExactInward,
+        SurveyTier::ExactFastF32,
+        SurveyTier::ExactNearestF32,
+        SurveyTier::ExactInwardF32,
+    ];
+
+    /// The tier's name, as in `report.json`.
+    pub const fn name(self) -> &'static str {
+        [
+            "plain-f32",
+            "plain-f64",
+            "fma-f64",
+            "exact-fast",
+            "exact-nearest",
+            "exact-inward",
+            "exact-fast-f32",
+            "exact-nearest-f32",
+            "exact-inward-f32",
+        ][self as usize]
+    }
+
+    /// Whether every decision is an exact sign.
+    pub const fn is_exact(self) -> bool {
+        self as usize >= SurveyTier::ExactFast as usize
+    }
+
+    /// Whether segments and answers are in `f32`.
+    pub const fn is_single(self) -> bool {
+        matches!(
+            self,
+            SurveyTier::PlainF32
+                | SurveyTier::ExactFastF32
+                | SurveyTier::ExactNearestF32
+                | SurveyTier::ExactInwardF32
+        )
+    }
+}
+
+impl fmt::Display for SurveyTier {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.name())
+    }
+}
+
+/// An algorithm, as a survey names it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum SurveyAlgorithm {
+    /// Projection reduction.
+    Vw,
+    /// Liang-Barsky that divides only where the signs ask for it.
+    LiangBarskyTuned,
+    /// Liang-Barsky with a division for each side that is not parallel.
+    LiangBarskyTextbook,
+    /// Entering and leaving parameters against oriented planes.
+    CyrusBeck,
+    /// Region codes in the frustum's frame.
+    CohenSutherland,
+    /// Intersection with each face's plane, points kept that are inside.
+    SixPlanes,
+}
+
+impl SurveyAlgorithm {
+    /// All algorithms, in the order of tables.
+    pub const ALL: [SurveyAlgorithm; 6] = [
+        SurveyAlgorithm::Vw,
+        SurveyAlgorithm::LiangBarskyTuned,
+        SurveyAlgorithm::LiangBarskyTextbook,
+        SurveyAlgorithm::CyrusBeck,
+        SurveyAlgorithm::CohenSutherland,
+        SurveyAlgorithm::SixPlanes,
+    ];
+
+    /// What a row's time is compared with, in the same family: this algorithm in
+    /// plain `f64`.
+    pub const REFERENCE: SurveyAlgorithm = SurveyAlgorithm::LiangBarskyTextbook;
+
+    /// The algorithm's name, the same as [`SegmentClipper::name`](crate::SegmentClipper::name)
+    /// gives.
+    pub const fn name(self) -> &'static str {
+        [
+            "vw",
+            "liang-barsky-tuned",
+            "liang-barsky-textbook",
+            "cyrus-beck",
+            "cohen-sutherland",
+            "six-planes",
+        ][self as usize]
+    }
+}
+
+impl fmt::Display for SurveyAlgorithm {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.name())
+    }
+}
+
+/// A largest and a nearly largest error.
+///
+/// Over the clipped ends of answers whose class is right: a wrong class is
+/// counted, never averaged. Infinite or missing numbers are counted as
+/// [`SurveyRow::refused`], so both are finite.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct SurveyError {
+    /// The largest.
+    pub max: f64,
+    /// 99.9 % of the ends are at most this far off.
+    pub p999: f64,
+}
+
+/// One algorithm in one tier on one family. Shares of cases are counts out of
+/// `cases`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SurveyRow {
+    /// The algorithm.
+    pub algorithm: SurveyAlgorithm,
+    /// The tier.
+    pub tier: SurveyTier,
+    /// The family.
+    pub family: Family,
+    /// How many cases were tried.
+    pub cases: u64,
+    /// Cases with a wrong class.
+    pub wrong_class: u64,
+    /// Cases of the right class with a wrong face set or clipped flag.
+    pub wrong_faces: u64,
+    /// Cases that were refused, panicked, or had a number that is not finite.
+    pub refused: u64,
+    /// Nanoseconds a segment: the median over rounds.
+    pub ns_median: f64,
+    /// The time divided by the reference's in the same round: the median over
+    /// rounds. Larger is slower.
+    pub time_ratio: f64,
+    /// Errors in units in the last place of the exact coordinate, fractional.
+    pub error_ulp: SurveyError,
+    /// Errors in unit roundoffs times the segment's largest coordinate.
+    pub error_u_scale: SurveyError,
+    /// Cases of the right class with an end that was clipped and is outside of
+    /// the frustum, exactly.
+    pub outside: u64,
+    /// Cases whose answer is not the mirrored one when the ends are swapped.
+    pub asymmetric: u64,
+    /// Cases whose answer, clipped again, changes.
+    pub non_idempotent: u64,
+    /// Cases that the floating-point filter did not settle; 0 in plain tiers.
+    pub filter_failures: u64,
+    /// Cases that needed expansions or integers; 0 in plain tiers.
+    pub exact_stage: u64,
+}
+
+/// In which way an input is the worst.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum SurveyWorst {
+    /// Refused, panicked, or not finite; the first such case.
+    Refused,
+    /// A wrong class; the first such case.
+    Class,
+    /// A wrong face set or flag; the first such case.
+    Faces,
+    /// The largest error in ulp.
+    ErrorUlp,
+    /// The largest error in u times scale.
+    ErrorScale,
+}
+
+impl SurveyWorst {
+    /// All ways.
+    pub const ALL: [SurveyWorst; 5] = [
+        SurveyWorst::Refused,
+        SurveyWorst::Class,
+        SurveyWorst::Faces,
+        SurveyWorst::ErrorUlp,
+        SurveyWorst::ErrorScale,
+    ];
+
+    /// The name, as in `report.json`.
+    pub const fn name(self) -> &'static str {
+        ["refused", "class", "faces", "error-ulp", "error-u-scale"][self as usize]
+    }
+}
+
+/// An input that was the worst for a row.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SurveyWitness {
+    /// The row's algorithm.
+    pub algorithm: SurveyAlgorithm,
+    /// The row's tier.
+    pub tier: SurveyTier,
+    /// The row's family.
+    pub family: Family,
+    /// In which way.
+    pub worst: SurveyWorst,
+    /// The error; for what is counted, how many such cases the row has.
+    pub value: f64,
+    /// The case's number in its family.
+    pub case: u64,
+    /// The input as a line that `frusta replay` takes.
+    pub line: String,
+}
+
+/// Everything that a survey found.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Survey {
+    /// Which cases.
+    pub seed: u64,
+    /// How many of each family.
+    pub cases: u64,
+    /// In how many rounds times were taken.
+    pub rounds: u32,
+    /// Families in order, in each the algorithms, in each the tiers; `f32` tiers
+    /// only where the family has `f32`.
+    pub rows: Vec<SurveyRow>,
+    /// For each row the worst inputs, where there are any.
+    pub witnesses: Vec<SurveyWitness>,
+}
+
+/// A text that names none of the things asked for.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct UnknownName {
+    what: &'static str,
+    name: String,
+    known: Vec<&'static str>,
+}
+
+impl fmt::Display for UnknownName {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { what, name, known } = self;
+        write!(f, "no {what} {name:?}; there are {}", known.join(", "))
+    }
+}
+
+impl std::error::Error for UnknownName {}
+
+macro_rules! from_name {
+    ($($t:ident $what:literal),*) => {$(
+        impl FromStr for $t {
+            type Err = UnknownName;
+
+            fn from_str(name: &str) -> Result<Self, UnknownName> {
+                let found = $t::ALL.into_iter().find(|t| t.name() == name);
+                found.ok_or_else(|| UnknownName {
+                    what: $what,
+                    name: name.to_owned(),
+                    known: $t::ALL.iter().map(|t| t.name()).collect(),
+                })
+            }
+        }
+    )*};
+}
+
+from_name!(SurveyTier "tier", SurveyAlgorithm "algorithm");
