@@ -10,26 +10,47 @@ compile_error!("x87 registers hold more bits than a double: frusta needs SSE2 on
 use std::ops::{Add, Mul, Sub};
 use wide::f64x2;
 
-/// A double, or two side by side in a vector register: every operation acts on
-/// each, with the same bits.
+/// A double, or several side by side in a vector register: every operation acts
+/// on each, with the same bits.
 pub(crate) trait Lanes:
     Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self>
 {
-    /// The same value everywhere.
-    fn splat(value: f64) -> Self;
+    /// The same value in each lane.
+    fn all(self, value: f64) -> Self;
+
+    /// Magnitudes.
+    fn abs(self) -> Self;
+
+    /// What rounding took from the product `p = a * b`, exactly, with the halves
+    /// of `a`, this, known.
+    #[inline(always)]
+    fn product_rest(self, (ah, al): (Self, Self), b: Self, p: Self) -> Self {
+        let (bh, bl) = split(b);
+        al * bl - (((p - ah * bh) - al * bh) - ah * bl)
+    }
 }
 
 impl Lanes for f64 {
     #[inline(always)]
-    fn splat(value: f64) -> Self {
+    fn all(self, value: f64) -> Self {
         value
+    }
+
+    #[inline(always)]
+    fn abs(self) -> Self {
+        self.abs()
     }
 }
 
 impl Lanes for f64x2 {
     #[inline(always)]
-    fn splat(value: f64) -> Self {
+    fn all(self, value: f64) -> Self {
         f64x2::splat(value)
+    }
+
+    #[inline(always)]
+    fn abs(self) -> Self {
+        self.abs()
     }
 }
 
@@ -62,7 +83,7 @@ const SPLITTER: f64 = 134_217_729.0;
 /// The upper and the lower half of a double's bits.
 #[inline(always)]
 pub(crate) fn split<F: Lanes>(a: F) -> (F, F) {
-    let c = F::splat(SPLITTER) * a;
+    let c = a.all(SPLITTER) * a;
     let high = c - (c - a);
     (high, a - high)
 }
@@ -73,12 +94,11 @@ pub(crate) fn two_prod<F: Lanes>(a: F, b: F) -> (F, F) {
     two_prod_split(a, split(a), b)
 }
 
-/// As [`two_prod`], with the halves of `a` known.
+/// As [`two_prod`], with the halves of `a`, this, known.
 #[inline(always)]
-pub(crate) fn two_prod_split<F: Lanes>(a: F, (ah, al): (F, F), b: F) -> (F, F) {
+pub(crate) fn two_prod_split<F: Lanes>(a: F, halves: (F, F), b: F) -> (F, F) {
     let p = a * b;
-    let (bh, bl) = split(b);
-    (p, al * bl - (((p - ah * bh) - al * bh) - ah * bl))
+    (p, a.product_rest(halves, b, p))
 }
 
 /// The exponent of a double's lowest set bit; `None` for zero.

@@ -33,7 +33,7 @@ use super::precise::Precise;
 use super::{Face, Form, Frustum, General, Layout, Shape};
 use crate::exact::double_double::Dd;
 use crate::exact::expansion::in_safe_range;
-use crate::exact::float::{exp2, exponent_above, lowest_bit, two_diff, two_prod};
+use crate::exact::float::{Lanes, exp2, exponent_above, lowest_bit, two_diff, two_prod};
 use crate::math::{Pose, Segment, Vec3};
 use std::cmp::Ordering;
 use wide::f64x2;
@@ -121,20 +121,16 @@ impl Filter {
     /// order of operations that the error bound is for.
     #[inline(always)]
     pub(crate) fn values_in<L: Layout>(&self, segment: &Segment<f64>) -> [Values; 2] {
-        let all = f64x2::splat;
-        let (q, size) = self.frame(segment);
-        let sigma = all(self.sigma);
-        let depth = sigma * (q.z - all(self.near));
-        let far = if L::FAR {
-            sigma * (all(self.far) - q.z)
-        } else {
-            all(NO_FAR)
-        };
-        let each = |v: &[f64; 4]| [all(v[0]), all(v[1]), all(v[2]), all(v[3])];
-        let (bounds, slopes) = (each(&self.at_near), each(&self.slope));
-        let ends = f64x2::transpose([depth, far]);
-        let sides = f64x2::transpose(L::sides(&bounds, &slopes, 0, depth, q.x));
-        let levels = f64x2::transpose(L::sides(&bounds, &slopes, 2, depth, q.y));
+        let Segment { start, end } = segment;
+        let p = Vec3::new(
+            f64x2::new([start.x, end.x]),
+            f64x2::new([start.y, end.y]),
+            f64x2::new([start.z, end.z]),
+        );
+        let ([near, far, left, right, bottom, top], size) = self.values_at::<L, _>(p);
+        let ends = f64x2::transpose([near, far]);
+        let sides = f64x2::transpose([left, right]);
+        let levels = f64x2::transpose([bottom, top]);
         let size = size.to_array();
         let values = |i: usize| Values {
             pairs: [ends[i], sides[i], levels[i]],
@@ -143,19 +139,32 @@ impl Filter {
         [values(0), values(1)]
     }
 
-    /// Rounded frame coordinates of both ends, and S.
+    /// The six values in the order of [`Face::ALL`], and S, of points side by side.
     #[inline(always)]
-    fn frame(&self, Segment { start, end }: &Segment<f64>) -> (Vec3<f64x2>, f64x2) {
-        let p = Vec3::new(
-            f64x2::new([start.x, end.x]),
-            f64x2::new([start.y, end.y]),
-            f64x2::new([start.z, end.z]),
-        );
-        let size = |v: Vec3<f64x2>| v.x.abs() + v.y.abs() + v.z.abs();
+    pub(crate) fn values_at<L: Layout, F: Lanes>(&self, p: Vec3<F>) -> ([F; 6], F) {
+        let all = |v: f64| p.x.all(v);
+        let (q, size) = self.frame(p);
+        let sigma = all(self.sigma);
+        let depth = sigma * (q.z - all(self.near));
+        let far = if L::FAR {
+            sigma * (all(self.far) - q.z)
+        } else {
+            all(NO_FAR)
+        };
+        let (bounds, slopes) = (self.at_near.map(all), self.slope.map(all));
+        let [left, right] = L::sides(&bounds, &slopes, 0, depth, q.x);
+        let [bottom, top] = L::sides(&bounds, &slopes, 2, depth, q.y);
+        ([depth, far, left, right, bottom, top], size)
+    }
+
+    /// Rounded frame coordinates, and S.
+    #[inline(always)]
+    fn frame<F: Lanes>(&self, p: Vec3<F>) -> (Vec3<F>, F) {
+        let size = |v: Vec3<F>| v.x.abs() + v.y.abs() + v.z.abs();
         if self.identity {
             return (p, size(p));
         }
-        let all = f64x2::splat;
+        let all = |v: f64| p.x.all(v);
         let o = self.origin;
         let c = Vec3::new(p.x - all(o.x), p.y - all(o.y), p.z - all(o.z));
         let dot = |k: usize| {

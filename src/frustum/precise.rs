@@ -1,45 +1,83 @@
 //! Boundary values in double-double: the filter's values (see
 //! [`super::filter`]) with a relative error small enough to compute with.
 //!
-//! All six faces are one formula, `|c - at - m (z - z_near)|` with c a frame
-//! coordinate, so that which face it is costs a look-up and no branch, and two
-//! faces are evaluated side by side. The rounded value goes straight through;
-//! what each of its operations lost is computed beside it, exactly for sums
-//! and products, and added at the end.
+//! Which face it is costs a look-up and no branch, and several faces, of one
+//! point or of several, are evaluated side by side. The rounded value goes
+//! straight through; what each of its operations lost is computed beside it,
+//! exactly for sums and products, and added at the end.
 //!
 //! # The error bound
-//! Only what is added beside the rounded value is rounded; each such sum or
-//! product is u times something, so its rounding is u^2 times that. With X =
-//! A_x S, Z = A_z S (see [`super::filter`]) and W = Z + |z_near|, in u^2:
+//! In u^2, with X = A_x S, Z = A_z S (see [`super::filter`]) and c, c_low the
+//! rounded difference and its rest of a point and the pose's origin. Only what
+//! is added beside the rounded value is rounded; each such sum or product is
+//! u times something, so its rounding is u^2 times that.
+//!
+//! *The identity pose*, where frame coordinates are the point's: one formula
+//! for all faces, `c - at - m (z - z_near)`, with W = Z + |z_near|:
 //! ```text
-//! coordinate   products 3, sums of the rests 2 + 2 + 2, all together 4     13 X, 13 Z
-//! depth        w_rest + z_low 2, times slope 2, rest w 1, sums 3 + 4, the
-//!              slope's rest times those of w 2, the slope itself 15        29 |m| W
-//! value        more + c_low, - low, + rest       2 + 2 + 3 X, 1 + 1 + 2 |n|, 4 + 5 |m| W
+//! depth        slope times w_rest 1, rest times w 1, sums 2 + 3; the slope 15     22 |m| W
+//! value        more - low, + rest                        1 + 2 X, |n|; 3 + 5 |m| W
 //! ```
-//! That is 20 X + 4 |n| + 51 |m| W, below 60 u^2 scale. With the identity pose
-//! the coordinates are exact.
+//! *Any other pose*: each face is a plane in the world, `N . (p - o) + d`, with
+//! N = a_x - m a_z and d = m z_near - at prepared to 106 bits. With Y = sum
+//! |N_j c_j| <= X + |m| Z and K = |m z_near| + |at|:
+//! ```text
+//! N            the slope 15, times a_z 3, minus a_x 3                3 X, 21 |m| Z
+//! products     N c_low 1, N_low c 1, both 2, with the rest 3, N_low c_low 1   8 Y
+//! rests        of products 3 + 3, of sums 2, with d_low 1, all together 3 + 6  18 Y, 6 K
+//! d            the slope 15, times z_near 3, minus at 3         21 |m z_near|, 3 |at|
+//! ```
+//! Both are below 47 u^2 scale; what relies on it counts with 60.
 
 use super::Shape;
 use crate::exact::double_double::Dd;
-use crate::exact::float::{split, two_diff, two_prod, two_prod_split, two_sum};
+use crate::exact::float::{Lanes, split, two_diff, two_prod_split, two_sum};
 use crate::math::{Pose, Vec3};
 use wide::f64x2;
 
-/// A face.
+/// A face over the coordinates of the identity pose.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Row {
-    /// Which frame coordinate.
+    /// Which coordinate.
     axis: usize,
     at: f64,
     /// The slope by z, with its upper and lower half, and what rounding it lost.
     slope: f64,
-    high: f64,
-    low: f64,
+    halves: (f64, f64),
     rest: f64,
     /// All bits set where a point on the face has exactly `at` for its `z`:
     /// near and far of the identity pose.
     level: f64,
+}
+
+/// A face as a plane over offsets from the pose's origin.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct WorldRow {
+    normal: [f64; 3],
+    halves: [(f64, f64); 3],
+    rests: [f64; 3],
+    offset: f64,
+    offset_rest: f64,
+}
+
+impl WorldRow {
+    /// From the two axes of a face in the frame, where it is, and its slope.
+    fn new(pose: &Pose, row: &Row, near: f64) -> Self {
+        let slope = Dd::new(row.slope, row.rest);
+        let (across, along) = (pose.axes[row.axis], pose.axes[2]);
+        let normal = [0, 1, 2].map(|j| {
+            let part = slope.mul_f64(along[j]).neg();
+            Dd::new(across[j], 0.0).add(part)
+        });
+        let offset = slope.mul_f64(near).add(Dd::new(-row.at, 0.0));
+        WorldRow {
+            normal: normal.map(|n| n.hi),
+            halves: normal.map(|n| split(n.hi)),
+            rests: normal.map(|n| n.lo),
+            offset: offset.hi,
+            offset_rest: offset.lo,
+        }
+    }
 }
 
 /// The six faces, in the order of [`super::Face::ALL`].
@@ -50,8 +88,8 @@ pub(crate) struct Precise {
     near: f64,
     /// What turns `c - at - m (z - z_near)` into the boundary value.
     signs: [f64; 6],
-    /// `None` for the identity.
-    pose: Option<Pose>,
+    /// Origin and planes of a pose that is not the identity.
+    world: Option<(Vec3<f64>, [WorldRow; 8])>,
 }
 
 impl Precise {
@@ -60,91 +98,94 @@ impl Precise {
         let sigma = shape.direction().sign();
         let near = shape.near();
         let bounds = near.rect.to_array();
-        let row = |axis, at, slope: Dd| {
-            let (high, low) = split(sigma * slope.hi);
-            Row {
-                axis,
-                at,
-                slope: sigma * slope.hi,
-                high,
-                low,
-                rest: sigma * slope.lo,
-                level: f64::from_bits(if axis == 2 && pose.is_identity() {
-                    u64::MAX
-                } else {
-                    0
-                }),
-            }
+        let row = |axis, at, slope: Dd| Row {
+            axis,
+            at,
+            slope: sigma * slope.hi,
+            halves: split(sigma * slope.hi),
+            rest: sigma * slope.lo,
+            level: f64::from_bits(if axis == 2 && pose.is_identity() {
+                u64::MAX
+            } else {
+                0
+            }),
         };
         let side = |i: usize| row(i / 2, bounds[i], slopes[i]);
         let level = Dd::new(0.0, 0.0);
         let far = shape.far().map_or(near.z, |far| far.z);
+        let rows = [
+            row(2, near.z + 0.0, level),
+            row(2, far + 0.0, level),
+            side(0),
+            side(1),
+            side(2),
+            side(3),
+            side(3),
+            side(3),
+        ];
+        let world = || (pose.origin, rows.map(|r| WorldRow::new(pose, &r, near.z)));
         Precise {
-            rows: [
-                row(2, near.z + 0.0, level),
-                row(2, far + 0.0, level),
-                side(0),
-                side(1),
-                side(2),
-                side(3),
-                side(3),
-                side(3),
-            ],
+            rows,
             near: near.z,
             signs: [sigma, -sigma, 1.0, -1.0, 1.0, -1.0],
-            pose: (!pose.is_identity()).then_some(*pose),
+            world: (!pose.is_identity()).then(world),
         }
     }
 
-    /// Two faces' values (by number) at a point, up to their signs, each as a
-    /// rounded value and a small rest whose exact sum is within 60 u^2 scale of
-    /// the truth.
+    /// Values of faces (by number) at points, side by side, up to their signs:
+    /// each as a rounded value and a small rest whose exact sum is within 60 u^2
+    /// scale of the truth. `lanes` makes a register of numbers.
     #[inline(always)]
-    pub(crate) fn values(&self, faces: [usize; 2], p: Vec3<f64>) -> (f64x2, f64x2) {
-        let (a, b) = self.rows(faces);
-        let all = f64x2::splat;
-        match &self.pose {
-            None => {
-                let c = [p.x, p.y, p.z, 0.0];
-                let c = f64x2::new([c[a.axis & 3], c[b.axis & 3]]);
-                self.combine::<true>(a, b, (all(p.z), all(0.0)), (c, all(0.0)))
-            }
-            Some(pose) => {
-                let z = coordinate(pose, [2, 2], p);
-                self.combine::<false>(a, b, z, coordinate(pose, [a.axis, b.axis], p))
-            }
-        }
-    }
-
-    /// From frame coordinates z and c; EXACT where their rests are zero.
-    #[inline(always)]
-    fn combine<const EXACT: bool>(
+    fn values<F: Lanes, const N: usize>(
         &self,
-        a: &Row,
-        b: &Row,
-        (z, z_low): (f64x2, f64x2),
-        (c, c_low): (f64x2, f64x2),
-    ) -> (f64x2, f64x2) {
-        let with = |v: f64x2, low: f64x2| if EXACT { v } else { v + low };
-        let slope = f64x2::new([a.slope, b.slope]);
-        let halves = (f64x2::new([a.high, b.high]), f64x2::new([a.low, b.low]));
-        let (w, w_rest) = two_diff(z, f64x2::splat(self.near));
-        let (product, low) = two_prod_split(slope, halves, w);
-        let low = low + (slope * with(w_rest, z_low) + f64x2::new([a.rest, b.rest]) * w);
-        let (across, more) = two_diff(c, f64x2::new([a.at, b.at]));
-        let (g, rest) = two_diff(across, product);
-        (g, rest + (with(more, c_low) - low))
+        lanes: impl Fn([f64; N]) -> F,
+        faces: [usize; N],
+        points: [Vec3<f64>; N],
+    ) -> (F, F) {
+        match &self.world {
+            None => self.values_in_frame(lanes, faces, points),
+            Some((origin, rows)) => {
+                let p = Vec3::new(
+                    lanes(points.map(|p| p.x)),
+                    lanes(points.map(|p| p.y)),
+                    lanes(points.map(|p| p.z)),
+                );
+                values_in_world(lanes, *origin, faces.map(|f| &rows[f & 7]), p)
+            }
+        }
     }
 
     #[inline(always)]
-    fn rows(&self, faces: [usize; 2]) -> (&Row, &Row) {
-        (&self.rows[faces[0] & 7], &self.rows[faces[1] & 7])
+    fn values_in_frame<F: Lanes, const N: usize>(
+        &self,
+        lanes: impl Fn([f64; N]) -> F,
+        faces: [usize; N],
+        points: [Vec3<f64>; N],
+    ) -> (F, F) {
+        let rows = faces.map(|f| &self.rows[f & 7]);
+        let coordinate = |j: usize| {
+            let p = points[j];
+            [p.x, p.y, p.z, 0.0][rows[j].axis & 3]
+        };
+        let c = lanes(std::array::from_fn(coordinate));
+        let z = lanes(points.map(|p| p.z));
+        let slope = lanes(rows.map(|r| r.slope));
+        let halves = (
+            lanes(rows.map(|r| r.halves.0)),
+            lanes(rows.map(|r| r.halves.1)),
+        );
+        let (w, w_rest) = two_diff(z, z.all(self.near));
+        let (product, low) = two_prod_split(slope, halves, w);
+        let low = low + (slope * w_rest + lanes(rows.map(|r| r.rest)) * w);
+        let (across, more) = two_diff(c, lanes(rows.map(|r| r.at)));
+        let (g, rest) = two_diff(across, product);
+        (g, rest + (more - low))
     }
 
     /// One face's value with its sign, the high part rounded.
     pub(crate) fn value(&self, face: usize, p: Vec3<f64>) -> Dd {
-        let (g, rest) = self.values([face; 2], p);
-        let value = Dd::new(g.to_array()[0], rest.to_array()[0]).normal();
+        let (g, rest) = self.values(|[v]: [f64; 1]| v, [face], [p]);
+        let value = Dd::new(g, rest).normal();
         if self.signs[face] < 0.0 {
             value.neg()
         } else {
@@ -155,34 +196,48 @@ impl Precise {
     /// `z`, but what near or far says of it for points that are on them.
     #[inline(always)]
     pub(crate) fn exact_depth(&self, faces: [usize; 2], z: f64x2) -> f64x2 {
-        let (a, b) = self.rows(faces);
+        let [a, b] = faces.map(|f| &self.rows[f & 7]);
         f64x2::new([a.level, b.level]).bitselect(f64x2::new([a.at, b.at]), z)
     }
 
-    /// The same two values' magnitudes, rounded: relative error below u (1 + 1/2)
-    /// where the filter is certain.
+    /// The values' magnitudes, rounded: relative error below u (1 + 1/2) where
+    /// the filter is certain.
     #[inline(always)]
-    pub(crate) fn magnitudes(&self, faces: [usize; 2], p: Vec3<f64>) -> f64x2 {
-        let (g, rest) = self.values(faces, p);
+    pub(crate) fn magnitudes<F: Lanes, const N: usize>(
+        &self,
+        lanes: impl Fn([f64; N]) -> F,
+        faces: [usize; N],
+        points: [Vec3<f64>; N],
+    ) -> F {
+        let (g, rest) = self.values(lanes, faces, points);
         (g + rest).abs()
     }
 }
 
-/// Two frame coordinates of a point, each as a rounded value and a rest.
 #[inline(always)]
-fn coordinate(pose: &Pose, axes: [usize; 2], p: Vec3<f64>) -> (f64x2, f64x2) {
-    let (a, b) = (pose.axes[axes[0]], pose.axes[axes[1]]);
-    let o = pose.origin;
-    let term = |p: f64, o: f64, a: f64, b: f64| {
-        let axis = f64x2::new([a, b]);
-        let (c, low) = two_diff(f64x2::splat(p), f64x2::splat(o));
-        let (product, rest) = two_prod(axis, c);
-        (product, rest + axis * low)
+fn values_in_world<F: Lanes, const N: usize>(
+    lanes: impl Fn([f64; N]) -> F,
+    origin: Vec3<f64>,
+    rows: [&WorldRow; N],
+    p: Vec3<F>,
+) -> (F, F) {
+    let term = |j: usize, p: F, o: f64| {
+        let (c, c_low) = two_diff(p, p.all(o));
+        let normal = lanes(rows.map(|r| r.normal[j]));
+        let halves = (
+            lanes(rows.map(|r| r.halves[j].0)),
+            lanes(rows.map(|r| r.halves[j].1)),
+        );
+        let (product, rest) = two_prod_split(normal, halves, c);
+        let low = normal * c_low + lanes(rows.map(|r| r.rests[j])) * c;
+        (product, rest + low)
     };
-    let (x, x_rest) = term(p.x, o.x, a.x, b.x);
-    let (y, y_rest) = term(p.y, o.y, a.y, b.y);
-    let (z, z_rest) = term(p.z, o.z, a.z, b.z);
-    let (xy, more) = two_sum(x, y);
-    let (sum, rest) = two_sum(xy, z);
-    two_sum(sum, (rest + more) + ((x_rest + y_rest) + z_rest))
+    let (x, x_rest) = term(0, p.x, origin.x);
+    let (y, y_rest) = term(1, p.y, origin.y);
+    let (z, z_rest) = term(2, p.z, origin.z);
+    let (xy, e) = two_sum(x, y);
+    let (xyz, f) = two_sum(xy, z);
+    let (g, h) = two_sum(xyz, lanes(rows.map(|r| r.offset)));
+    let sums = (e + f) + (h + lanes(rows.map(|r| r.offset_rest)));
+    (g, ((x_rest + y_rest) + z_rest) + sums)
 }

@@ -157,13 +157,8 @@ fn step(staged: &mut Staged<'_>, face: Face) -> Step {
     }
     if staged.certain(face) {
         let Segment { start, end } = staged.segment;
-        let value = |p| {
-            staged
-                .filter()
-                .precise
-                .magnitudes([face as usize; 2], p)
-                .to_array()[0]
-        };
+        let precise = &staged.filter().precise;
+        let value = |p| precise.magnitudes(|[v]: [f64; 1]| v, [face as usize], [p]);
         return Step::new(value(start), value(end), &staged.segment);
     }
     // Near and far of the identity pose are one subtraction, the same bits as

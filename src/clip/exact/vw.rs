@@ -271,8 +271,10 @@ fn number(t: f64) -> usize {
 #[inline(always)]
 fn fast<T: Real>(filter: &Filter, wide: &Segment<f64>, crossing: &Crossing) -> SegmentClip<T> {
     let Crossing { faces, clipped } = *crossing;
-    let a = filter.precise.magnitudes(faces, wide.start);
-    let b = filter.precise.magnitudes(faces, wide.end);
+    let a = filter
+        .precise
+        .magnitudes(f64x2::new, faces, [wide.start; 2]);
+    let b = filter.precise.magnitudes(f64x2::new, faces, [wide.end; 2]);
     let ends = Ends {
         crossing: clipped,
         end: f64x2::new([0.0, f64::from_bits(u64::MAX)]),
