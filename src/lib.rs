@@ -70,7 +70,7 @@ pub use frustum::{
     FaceSetIter, FarCorners, Frustum, FrustumError, MatrixFrustum, MatrixLayout, Plane, Projection,
     Shape, SixPoints, Trapezoid, TrapezoidEnd, ViewProjection,
 };
-pub use math::{Axis, End, Interval, NonFinite, Pose, Real, Rect, Segment, Vec3};
+pub use math::{Axis, End, Interval, NonFinite, NonFiniteAt, Pose, Real, Rect, Segment, Vec3};
 
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]

@@ -39,9 +39,10 @@
 
 use super::plain::{self, Found, InFrame, max, min};
 use super::result::{Accuracy, Arithmetic, SegmentClip, StageCounts};
-use super::{SegmentClipper, exact};
+use super::{SegmentClipper, exact, slice};
 use crate::frustum::{Face, FaceSet, Frustum, Layout, PlainFrustum};
-use crate::math::{NonFinite, Real, Segment};
+use crate::math::{NonFinite, NonFiniteAt, Real, Segment};
+use fearless_simd::Level;
 
 /// Clips by projection on two planes ("V/W").
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -83,6 +84,22 @@ impl<T: Real> SegmentClipper<T> for VwProjection {
         match self.arithmetic {
             Arithmetic::Plain => plain::run(frustum, segment, plain::in_frame::<Plain, T>),
             Arithmetic::Exact(accuracy) => exact::vw::clip(frustum, segment, accuracy, counts),
+        }
+    }
+
+    fn clip_segments_counted(
+        &self,
+        frustum: &Frustum,
+        segments: &[Segment<T>],
+        clips: &mut Vec<SegmentClip<T>>,
+        counts: &mut StageCounts,
+    ) -> Result<(), NonFiniteAt> {
+        let level = Level::new();
+        match self.arithmetic {
+            Arithmetic::Plain => todo!(),
+            Arithmetic::Exact(accuracy) => {
+                slice::clip_exact(level, frustum, segments, accuracy, clips, counts)
+            }
         }
     }
 }

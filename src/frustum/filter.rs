@@ -180,16 +180,35 @@ impl Filter {
         size < self.limit
     }
 
+    /// The sizes for which the bound holds are less than this.
+    pub(crate) fn limit(&self) -> f64 {
+        self.limit
+    }
+
     /// The threshold of the four sides at a point of this size.
     #[inline(always)]
-    pub(crate) fn side_threshold(&self, size: f64) -> f64 {
-        self.side.0 + self.side.1 * size
+    fn side_threshold<F: Lanes>(&self, size: F) -> F {
+        size.all(self.side.0) + size.all(self.side.1) * size
     }
 
     /// The threshold of near and far.
     #[inline(always)]
-    pub(crate) fn depth_threshold(&self, size: f64) -> f64 {
-        self.depth.0 + self.depth.1 * size
+    fn depth_threshold<F: Lanes>(&self, size: F) -> F {
+        size.all(self.depth.0) + size.all(self.depth.1) * size
+    }
+
+    /// The thresholds of depth and sides that crossing parameters are certified
+    /// with. With the identity pose near and far values are differences of two
+    /// doubles: relative error u, and all that counts is that their reciprocals
+    /// are finite.
+    #[inline(always)]
+    pub(crate) fn crossing_thresholds<F: Lanes>(&self, size: F) -> (F, F) {
+        let depth = if self.identity {
+            size.all(FLOOR)
+        } else {
+            self.depth_threshold(size)
+        };
+        (depth, self.side_threshold(size))
     }
 
     /// A face's threshold.
@@ -256,6 +275,12 @@ impl Filter {
         let Segment { start, end } = segment;
         let all = on(start.x, end.x) & on(start.y, end.y) & on(start.z, end.z);
         all.all() & (p.size < lattice.limit) & (q.size < lattice.limit)
+    }
+
+    /// The lattice's rounding constant and limit of size, if there is one: see
+    /// [`Filter::on_lattice`].
+    pub(crate) fn lattice(&self) -> Option<(f64, f64)> {
+        self.lattice.map(|lattice| (lattice.round, lattice.limit))
     }
 
     /// False for nearly all points that are not on the lattice; cheap.

@@ -193,6 +193,18 @@ impl Precise {
         }
     }
 
+    /// Where points on these faces have an exact `z`, and which, in the pose in
+    /// which there are such faces.
+    #[inline(always)]
+    pub(crate) fn levels<const N: usize>(
+        &self,
+        faces: [usize; N],
+    ) -> Option<([bool; N], [f64; N])> {
+        let rows = faces.map(|f| &self.rows[f & 7]);
+        let levels = (rows.map(|r| r.level != 0.0), rows.map(|r| r.at));
+        self.world.is_none().then_some(levels)
+    }
+
     /// `z`, but what near or far says of it for points that are on them.
     #[inline(always)]
     pub(crate) fn exact_depth(&self, faces: [usize; 2], z: f64x2) -> f64x2 {

@@ -17,5 +17,5 @@ pub(crate) use real::PerReal;
 pub use real::Real;
 pub(crate) use real::Short;
 pub use rect::Rect;
-pub use segment::{End, NonFinite, Segment};
+pub use segment::{End, NonFinite, NonFiniteAt, Segment};
 pub use vec3::{Axis, Vec3};

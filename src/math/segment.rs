@@ -59,6 +59,27 @@ impl fmt::Display for NonFinite {
 
 impl std::error::Error for NonFinite {}
 
+/// A coordinate in a slice of segments is infinite or not a number.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NonFiniteAt {
+    /// The segment's place in the slice.
+    pub index: usize,
+    /// What it holds.
+    pub found: NonFinite,
+}
+
+impl fmt::Display for NonFiniteAt {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "segment {}: {}", self.index, self.found)
+    }
+}
+
+impl std::error::Error for NonFiniteAt {
+    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
+        Some(&self.found)
+    }
+}
+
 impl NonFinite {
     /// Names a point's first coordinate that is infinite or NaN.
     pub(crate) fn check<T: Real>(end: Option<End>, point: Vec3<T>) -> Result<(), Self> {

@@ -19,6 +19,7 @@ mod points;
 mod staged;
 pub(crate) mod vw;
 
+pub(crate) use pair::inside;
 pub(crate) use staged::Staged;
 
 use decide::Decision;

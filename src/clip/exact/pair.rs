@@ -126,7 +126,7 @@ pub(super) fn assemble<T: Real>(
 
 /// All of the segment, touching no face.
 #[inline(always)]
-pub(super) fn inside<T: Real>(segment: &Segment<T>) -> SegmentClip<T> {
+pub(crate) fn inside<T: Real>(segment: &Segment<T>) -> SegmentClip<T> {
     let end = |t, point| PartEnd {
         t,
         point,

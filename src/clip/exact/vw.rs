@@ -30,13 +30,13 @@ use super::{lattice, points};
 use crate::clip::plain::outside;
 use crate::clip::predicates::{Predicates, Role, Span};
 use crate::clip::{Accuracy, Class, SegmentClip, StageCounts};
-use crate::frustum::filter::{FLOOR, Filter, Values};
+use crate::frustum::filter::{Filter, Values};
 use crate::frustum::{Face, FaceSet, Form, Frustum, General, Layout, Orthographic, Symmetric};
 use crate::math::{End, NonFinite, Real, Segment};
 use wide::f64x2;
 
 /// 2^-48: rounding, and the face's number in the last three bits.
-const ROUNDING: f64 = 3.552713678800501e-15;
+pub(crate) const ROUNDING: f64 = 3.552713678800501e-15;
 
 /// Clips with exact class and sets.
 #[inline]
@@ -94,7 +94,7 @@ fn cross<T: Real>(
     q: &Values,
 ) -> Result<SegmentClip<T>, NonFinite> {
     let filter = frustum.filter();
-    let thresholds = thresholds(filter, p.size + q.size);
+    let thresholds = filter.crossing_thresholds(p.size + q.size);
     match certify(&p.pairs, &q.pairs, thresholds) {
         Certificate::Outside => return Ok(outside()),
         Certificate::Cross(crossing) if accuracy == Accuracy::Fast => {
@@ -112,21 +112,6 @@ fn cross<T: Real>(
     super::clip(frustum, segment, accuracy, counts, |s| span(s))
 }
 
-/// The thresholds of depth and sides for both ends, from the sum of their
-/// sizes: thresholds grow with it.
-#[inline(always)]
-fn thresholds(filter: &Filter, size: f64) -> (f64, f64) {
-    // With the identity pose near and far values are differences of two
-    // doubles: relative error u, and all that counts is that their reciprocals
-    // are finite.
-    let depth = if filter.identity {
-        FLOOR
-    } else {
-        filter.depth_threshold(size)
-    };
-    (depth, filter.side_threshold(size))
-}
-
 /// What the rounded values' signs prove.
 enum Triage {
     Outside,
@@ -142,7 +127,7 @@ fn triage(filter: &Filter, p: &Values, q: &Values) -> Triage {
     if !filter.covers(size) {
         return Triage::Unsure;
     }
-    let (depth, side) = thresholds(filter, size);
+    let (depth, side) = filter.crossing_thresholds(size);
     let (depth, side) = (f64x2::splat(depth), f64x2::splat(side));
     let (a, b) = (&p.pairs, &q.pairs);
     let greater = |i: usize| a[i].fast_max(b[i]);

@@ -1,0 +1,269 @@
+//! Exact V/W, four segments at a time: triage and certificates as in
+//! `clip/exact/vw.rs`, where their proofs are.
+
+use super::Chunk;
+use super::lanes::{ends, points};
+use super::points::construct;
+use super::queue::{Crossed, Queues};
+use crate::clip::exact::{self, vw::ROUNDING};
+use crate::clip::{Accuracy, StageCounts};
+use crate::frustum::Layout;
+use crate::frustum::filter::Filter;
+use crate::math::{NonFiniteAt, Real, Segment, Vec3};
+use fearless_simd::prelude::*;
+use fearless_simd::{f64x4, mask64x4, u64x4};
+
+/// A chunk on its way.
+pub(super) struct Run<'a, S, T> {
+    pub(super) simd: S,
+    pub(super) chunk: Chunk<'a, T>,
+    pub(super) accuracy: Accuracy,
+    pub(super) queues: &'a mut Queues,
+    pub(super) counts: &'a mut StageCounts,
+}
+
+/// The six boundary values at both ends of four segments, sizes and thresholds.
+struct Values<S: Simd> {
+    a: [f64x4<S>; 6],
+    b: [f64x4<S>; 6],
+    sizes: [f64x4<S>; 2],
+    depth: f64x4<S>,
+    side: f64x4<S>,
+    covered: mask64x4<S>,
+}
+
+impl<S: Simd> Values<S> {
+    #[inline(always)]
+    fn new<L: Layout>(filter: &Filter, p: Vec3<f64x4<S>>, q: Vec3<f64x4<S>>) -> Self {
+        let (a, p_size) = filter.values_at::<L, _>(p);
+        let (b, q_size) = filter.values_at::<L, _>(q);
+        let size = p_size + q_size;
+        let (depth, side) = filter.crossing_thresholds(size);
+        Values {
+            a,
+            b,
+            sizes: [p_size, q_size],
+            depth,
+            side,
+            covered: size.simd_lt(filter.limit()),
+        }
+    }
+
+    /// Which segments' signs prove that they are outside, inside, crossing.
+    #[inline(always)]
+    fn triage(&self) -> [mask64x4<S>; 3] {
+        let (a, b) = (&self.a, &self.b);
+        let least_of = |v: [f64x4<S>; 6]| (v[0].min(v[1]), (v[2].min(v[3])).min(v[4].min(v[5])));
+        let beyond = |v: [f64x4<S>; 6]| {
+            let (depth, side) = least_of(v);
+            depth.simd_gt(self.depth) & side.simd_gt(self.side)
+        };
+        let (depth, side) = least_of(std::array::from_fn(|i| a[i].max(b[i])));
+        let outside = depth.simd_lt(-self.depth) | side.simd_lt(-self.side);
+        let inside = beyond(std::array::from_fn(|i| a[i].min(b[i])));
+        let crossing = beyond(std::array::from_fn(|i| a[i].abs().min(b[i].abs())));
+        let outside = self.covered & outside;
+        let inside = self.covered & inside & !outside;
+        [
+            outside,
+            inside,
+            self.covered & crossing & !outside & !inside,
+        ]
+    }
+
+    /// Latest entry and earliest exit, as `certify` in `clip/exact/vw.rs`.
+    #[inline(always)]
+    fn certify<L: Layout>(&self, simd: S) -> Certificate<S> {
+        let all = |v: f64| -> f64x4<S> { v.simd_into(simd) };
+        let mut enter = Two::new(all(-4.0));
+        let mut leave = Two::new(all(-4.0));
+        let mut scales = [all(0.0); 2];
+        for i in 0..6 {
+            if i == 1 && !L::FAR {
+                continue;
+            }
+            let (a, b) = (self.a[i], self.b[i]);
+            let scale = all(1.0) / (a - b);
+            let t = a * scale;
+            let (entering, leaving) = (a.simd_lt(0.0), b.simd_lt(0.0));
+            enter.add(numbered(entering.select(t, all(-1.0)), i as u64));
+            leave.add(numbered(leaving.select(-t, all(-2.0)), i as u64));
+            let scale = (entering ^ leaving).select(scale.abs(), all(0.0));
+            let of = usize::from(i > 1);
+            scales[of] = scales[of].max(scale);
+        }
+        // What two parameters can be off, together.
+        let error = (self.depth * scales[0]).max(self.side * scales[1]);
+        let error = (error + ROUNDING) * 2.0;
+        let overlap = enter.first + leave.first;
+        let uncrossed = [enter.first.simd_lt(-0.5), leave.first.simd_lt(-1.5)];
+        let single = |v: Two<S>, uncrossed| (v.second + error).simd_lt(v.first) | uncrossed;
+        Certificate {
+            outside: overlap.simd_gt(error),
+            certain: single(enter, uncrossed[0])
+                & single(leave, uncrossed[1])
+                & overlap.simd_lt(-error),
+            clipped: uncrossed.map(|none| (!none).to_bitmask()),
+            faces: (enter.first.to_bits() & 7) | ((leave.first.to_bits() & 7) << 3),
+        }
+    }
+}
+
+/// What rounded parameters prove: see `Certificate` in `clip/exact/vw.rs`.
+struct Certificate<S: Simd> {
+    outside: mask64x4<S>,
+    certain: mask64x4<S>,
+    /// Whether there is an entry, and an exit, in bits by lane.
+    clipped: [u64; 2],
+    /// For [`Crossed`].
+    faces: u64x4<S>,
+}
+
+/// A parameter with the face's number in its last three bits.
+#[inline(always)]
+fn numbered<S: Simd>(t: f64x4<S>, face: u64) -> f64x4<S> {
+    f64x4::from_bits((t.to_bits() & !7) | face)
+}
+
+/// The greatest two so far.
+#[derive(Clone, Copy)]
+struct Two<S: Simd> {
+    first: f64x4<S>,
+    second: f64x4<S>,
+}
+
+impl<S: Simd> Two<S> {
+    #[inline(always)]
+    fn new(least: f64x4<S>) -> Self {
+        Two {
+            first: least,
+            second: least,
+        }
+    }
+
+    #[inline(always)]
+    fn add(&mut self, v: f64x4<S>) {
+        self.second = self.second.max(self.first.min(v));
+        self.first = self.first.max(v);
+    }
+}
+
+impl<S: Simd, T: Real> Run<'_, S, T> {
+    /// Clips the chunk.
+    #[inline(always)]
+    pub(super) fn clip<L: Layout>(&mut self) -> Result<(), NonFiniteAt> {
+        self.queues.clear();
+        self.triage::<L>();
+        if self.accuracy == Accuracy::Fast {
+            self.certify::<L>();
+            self.construct();
+        }
+        for &item in self.queues.inside.items() {
+            let index = item as usize;
+            self.chunk.clips[index] = exact::inside(&self.chunk.segments[index]);
+        }
+        self.unsure()
+    }
+
+    /// All segments, four at a time; the last four may overlap others.
+    #[inline(always)]
+    fn triage<L: Layout>(&mut self) {
+        let (groups, rest) = self.chunk.segments.as_chunks::<4>();
+        for (k, group) in groups.iter().enumerate() {
+            self.triage_four::<L>(group.each_ref(), 4 * k, 0xf);
+        }
+        if let Some(last) = rest.len().checked_sub(1) {
+            let group = [0, 1, 2, 3].map(|j: usize| &rest[j.min(last)]);
+            self.triage_four::<L>(group, 4 * groups.len(), 0xf >> (3 - last));
+        }
+    }
+
+    /// `present` has the bits of the segments that are there.
+    #[inline(always)]
+    fn triage_four<L: Layout>(&mut self, group: [&Segment<T>; 4], base: usize, present: u64) {
+        let filter = self.chunk.frustum.filter();
+        let [p, q] = ends(group).map(|end| points(self.simd, end));
+        let values = Values::new::<L>(filter, p, q);
+        let [outside, inside, crossing] = values.triage();
+        let settled = (outside | inside).to_bitmask();
+        let mut inside = inside.to_bitmask() & present;
+        let mut crossing = crossing.to_bitmask() & present;
+        if self.accuracy != Accuracy::Fast {
+            // Points are constructed elsewhere.
+            crossing = 0;
+        } else if let Some((round, limit)) = filter.lattice() {
+            let on = |v: f64x4<S>| ((v + round) - round).simd_eq(v);
+            let [small_p, small_q] = values.sizes.map(|size| size.simd_lt(limit));
+            let on = (on(p.x) & on(p.y) & on(p.z)) & (on(q.x) & on(q.y) & on(q.z));
+            let lattice = (on & small_p & small_q).to_bitmask() & present;
+            // Those that are settled are counted here, the rest where it is.
+            self.counts.lattice += u64::from((lattice & settled).count_ones());
+            crossing &= !lattice;
+        }
+        inside &= settled;
+        let unsure = present & !(settled | crossing);
+        let items = [0, 1, 2, 3].map(|j| (base + j) as u32);
+        self.queues.inside.append(items, inside);
+        self.queues.crossing.append(items, crossing);
+        self.queues.unsure.append(items, unsure);
+    }
+
+    /// What certainly has ends on both sides of some faces.
+    #[inline(always)]
+    fn certify<L: Layout>(&mut self) {
+        let Queues {
+            crossing,
+            crossed,
+            unsure,
+            ..
+        } = &mut *self.queues;
+        let filter = self.chunk.frustum.filter();
+        for (items, count) in crossing.groups() {
+            let group = items.map(|i| &self.chunk.segments[i as usize]);
+            let [p, q] = ends(group).map(|end| points(self.simd, end));
+            let found = Values::new::<L>(filter, p, q).certify::<L>(self.simd);
+            let present = 0xf >> (4 - count);
+            let certain = found.certain.to_bitmask() & present;
+            let open = !(found.certain | found.outside).to_bitmask() & present;
+            let faces: [u64; 4] = found.faces.into();
+            let [entered, left] = found.clipped;
+            let packed = [0, 1, 2, 3].map(|j| {
+                let clipped = [entered >> j & 1, left >> j & 1];
+                Crossed::new(items[j], faces[j], clipped).0
+            });
+            crossed.append(packed, certain);
+            unsure.append(items, open);
+        }
+    }
+
+    #[inline(always)]
+    fn construct(&mut self) {
+        let filter = self.chunk.frustum.filter();
+        for (items, _) in self.queues.crossed.groups() {
+            let items = items.map(Crossed);
+            let group = items.map(|c| &self.chunk.segments[c.item()]);
+            let clips = construct(self.simd, filter, items, group);
+            // The last group's repeated items have the same clips.
+            for (item, clip) in items.into_iter().zip(clips) {
+                self.chunk.clips[item.item()] = clip;
+            }
+        }
+    }
+
+    /// One by one. The first that is queued of those that are not finite is the
+    /// first of all: certificates never see them.
+    fn unsure(&mut self) -> Result<(), NonFiniteAt> {
+        let Chunk {
+            frustum,
+            segments,
+            clips,
+        } = &mut self.chunk;
+        for &item in self.queues.unsure.items() {
+            let index = item as usize;
+            let segment = &segments[index];
+            clips[index] = exact::vw::clip(frustum, segment, self.accuracy, self.counts)
+                .map_err(|found| NonFiniteAt { index, found })?;
+        }
+        Ok(())
+    }
+}

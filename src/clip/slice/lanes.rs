@@ -1,0 +1,69 @@
+//! Four segments side by side.
+
+use crate::exact::float::{Lanes, split};
+use crate::math::{Real, Segment, Vec3};
+use fearless_simd::prelude::*;
+use fearless_simd::{Level, f64x4};
+
+/// A register of four numbers.
+#[inline(always)]
+pub(super) fn lanes<S: Simd>(simd: S) -> impl Fn([f64; 4]) -> f64x4<S> + Copy {
+    move |values| values.simd_into(simd)
+}
+
+/// Starts or ends of four segments.
+#[inline(always)]
+pub(super) fn points<S: Simd>(simd: S, p: [Vec3<f64>; 4]) -> Vec3<f64x4<S>> {
+    let lanes = lanes(simd);
+    Vec3::new(
+        lanes(p.map(|p| p.x)),
+        lanes(p.map(|p| p.y)),
+        lanes(p.map(|p| p.z)),
+    )
+}
+
+/// Both ends of four segments, in `f64`.
+#[inline(always)]
+pub(super) fn ends<T: Real>(segments: [&Segment<T>; 4]) -> [[Vec3<f64>; 4]; 2] {
+    [
+        segments.map(|s| s.start.to_f64()),
+        segments.map(|s| s.end.to_f64()),
+    ]
+}
+
+/// Whether products and sums are fused where that is asked for.
+#[inline(always)]
+fn fuses<S: Simd>(simd: S) -> bool {
+    match simd.level() {
+        #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+        Level::Avx2(_) | Level::Avx512(_) => true,
+        #[cfg(target_arch = "aarch64")]
+        Level::Neon(_) => true,
+        _ => false,
+    }
+}
+
+impl<S: Simd> Lanes for f64x4<S> {
+    #[inline(always)]
+    fn all(self, value: f64) -> Self {
+        value.simd_into(self.token())
+    }
+
+    #[inline(always)]
+    fn abs(self) -> Self {
+        SimdBase::abs(self)
+    }
+
+    /// One fused operation, where there is one: what a product lost is a double, so
+    /// it is the same bits both ways, but where it underflows. There a value
+    /// that matters is above 2^-500, and the difference, below 2^-1070, is lost
+    /// in the sum.
+    #[inline(always)]
+    fn product_rest(self, (ah, al): (Self, Self), b: Self, p: Self) -> Self {
+        if fuses(self.token()) {
+            return self.mul_sub_precise(b, p);
+        }
+        let (bh, bl) = split(b);
+        al * bl - (((p - ah * bh) - al * bh) - ah * bl)
+    }
+}

@@ -1,0 +1,143 @@
+//! V/W over slices: segments side by side in the lanes of vector registers.
+//!
+//! # Idea
+//! ```text
+//! for each chunk of segments:
+//!     all are outside, until something else is known
+//!     triage    four at a time: the boundary values at both ends, and what their
+//!               signs prove; the numbers of the rest go to queues: inside,
+//!               crossing, unsure
+//!     crossing  four at a time from the queue: crossing parameters of all faces,
+//!               their latest entry and earliest exit; what is certain goes to a
+//!               queue with its two faces, the rest to the unsure
+//!     points    four at a time from the queue
+//!     inside    one by one: copies
+//!     unsure    one by one, as without slices
+//! ```
+//! Queues are filled without branches, so that nothing depends on what cannot be
+//! predicted: which segments of a mixed scene are outside, inside or cut. That
+//! costs a textbook clipper most of its time.
+//!
+//! V/W's symmetry gives the lanes their short values: left and right share a
+//! half-width, bottom and top another, near and far serve both trapezoids.
+//!
+//! # The same bits
+//! Each lane does what [`VwProjection`](crate::VwProjection) does with one segment, in
+//! the same order of operations, or hands it on to just that. The vector width is
+//! chosen once for a slice, at run time. The only fused operation is the rest of a
+//! product, which is exact either way.
+//!
+//! # Source
+//! Four side values as one vector: V/W's own symmetry (see `clip/vw.rs`). Queues
+//! instead of branches: as in vectorised data bases' selection vectors (Boncz,
+//! Zukowski, Nes, "MonetDB/X100", 2005).
+
+mod exact;
+mod lanes;
+mod plain;
+mod points;
+mod queue;
+
+use super::result::{Accuracy, SegmentClip, StageCounts};
+use crate::frustum::{Form, Frustum, General, Symmetric};
+use crate::math::{NonFiniteAt, Real, Segment};
+use fearless_simd::{Level, Simd};
+use queue::{CHUNK, Queues};
+
+/// Runs what is generic over the vector width. On x86 with one of two: more than
+/// four lanes there are not, and what SSE4.2 adds is not used.
+#[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+macro_rules! at_width {
+    ($level:expr, $simd:ident => $run:expr) => {
+        if let Some($simd) = $level.as_avx2() {
+            $simd.vectorize(
+                #[inline(always)]
+                || $run,
+            )
+        } else {
+            let $simd = $level.as_sse2().expect("the crate needs SSE2");
+            $run
+        }
+    };
+}
+#[cfg(not(any(target_arch = "x86", target_arch = "x86_64")))]
+macro_rules! at_width {
+    ($level:expr, $simd:ident => $run:expr) => {
+        fearless_simd::dispatch!($level, $simd => $run)
+    };
+}
+
+/// Segments of a chunk, and where their clips go: as many, all outside.
+struct Chunk<'a, T> {
+    frustum: &'a Frustum,
+    segments: &'a [Segment<T>],
+    clips: &'a mut [SegmentClip<T>],
+}
+
+/// Clips by exact V/W. On an error `clips` is empty.
+pub(crate) fn clip_exact<T: Real>(
+    level: Level,
+    frustum: &Frustum,
+    segments: &[Segment<T>],
+    accuracy: Accuracy,
+    clips: &mut Vec<SegmentClip<T>>,
+    counts: &mut StageCounts,
+) -> Result<(), NonFiniteAt> {
+    let mut queues = Queues::new();
+    in_chunks(
+        frustum,
+        segments,
+        clips,
+        |chunk| at_width!(level, simd => exact_chunk(simd, chunk, accuracy, &mut queues, counts)),
+    )
+}
+
+fn in_chunks<T: Real>(
+    frustum: &Frustum,
+    segments: &[Segment<T>],
+    clips: &mut Vec<SegmentClip<T>>,
+    mut clip: impl FnMut(Chunk<'_, T>) -> Result<(), NonFiniteAt>,
+) -> Result<(), NonFiniteAt> {
+    clips.clear();
+    clips.reserve(segments.len());
+    for segments in segments.chunks(CHUNK) {
+        let done = clips.len();
+        clips.extend(segments.iter().map(|_| super::plain::outside()));
+        let chunk = Chunk {
+            frustum,
+            segments,
+            clips: &mut clips[done..],
+        };
+        if let Err(mut error) = clip(chunk) {
+            clips.clear();
+            error.index += done;
+            return Err(error);
+        }
+    }
+    Ok(())
+}
+
+#[inline(always)]
+fn exact_chunk<S: Simd, T: Real>(
+    simd: S,
+    chunk: Chunk<'_, T>,
+    accuracy: Accuracy,
+    queues: &mut Queues,
+    counts: &mut StageCounts,
+) -> Result<(), NonFiniteAt> {
+    let mut run = exact::Run {
+        simd,
+        chunk,
+        accuracy,
+        queues,
+        counts,
+    };
+    match run.chunk.frustum.filter().form {
+        Form::Symmetric => run.clip::<Symmetric<true>>(),
+        Form::General | Form::Orthographic => run.clip::<General<true>>(),
+        Form::InfiniteSymmetric | Form::Infinite => run.clip::<General<false>>(),
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,64 @@
+//! Slices against single segments, to the bit, at every vector width.
+
+use super::*;
+use crate::clip::{SegmentClipper, VwProjection};
+use crate::samples::{BLOCK, Family};
+
+/// The widest registers of this machine, and those that every one has.
+fn levels() -> Vec<Level> {
+    vec![Level::new(), Level::baseline()]
+}
+
+/// All of a family's first cases, a scene at a time, in pieces of many lengths.
+fn compare<T: Real>(
+    family: Family,
+    clip: impl Fn(&Frustum, &[Segment<T>], &mut Vec<SegmentClip<T>>, &mut StageCounts),
+    single: &dyn SegmentClipper<T>,
+    blocks: u64,
+) {
+    let mut clips = Vec::new();
+    for block in 0..blocks {
+        let scene = family.scene(7, block);
+        let frustum = scene.frustum();
+        let cases = block * BLOCK..(block + 1) * BLOCK;
+        let segments: Vec<Segment<T>> = cases.map(|i| family.segment(&scene, 7, i)).collect();
+        // A chunk and a bit, so that every place in a group is taken by all.
+        let many: Vec<_> = (0..5).flat_map(|k| &segments[k..]).copied().collect();
+        let length = many.len() - block as usize % 5;
+        let (mut counts, mut expected_counts) = Default::default();
+        clip(frustum, &many[..length], &mut clips, &mut counts);
+        assert_eq!(clips.len(), length);
+        for (segment, clip) in many.iter().zip(&clips) {
+            let expected = single.clip_segment_counted(frustum, segment, &mut expected_counts);
+            let expected = expected.expect("finite");
+            assert_eq!(
+                format!("{clip:?}"),
+                format!("{expected:?}"),
+                "{family}: {segment:?}"
+            );
+        }
+        assert_eq!(counts, expected_counts, "{family}");
+    }
+}
+
+fn compare_exact<T: Real>(family: Family, level: Level, accuracy: Accuracy, blocks: u64) {
+    let clip = |f: &Frustum, s: &[Segment<T>], c: &mut Vec<_>, counts: &mut StageCounts| {
+        clip_exact(level, f, s, accuracy, c, counts).expect("finite");
+    };
+    compare(family, clip, &VwProjection::exact(accuracy), blocks);
+}
+
+#[test]
+fn exact_slices_have_the_bits_of_single_segments() {
+    for &family in Family::ALL {
+        for level in levels() {
+            compare_exact::<f64>(family, level, Accuracy::Fast, 6);
+            if family.has_f32() {
+                compare_exact::<f32>(family, level, Accuracy::Fast, 3);
+            }
+        }
+        for accuracy in [Accuracy::Nearest, Accuracy::Inward] {
+            compare_exact::<f64>(family, Level::new(), accuracy, 1);
+        }
+    }
+}
