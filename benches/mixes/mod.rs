@@ -2,9 +2,11 @@
 
 pub(crate) mod answers;
 mod timed;
+mod turns;
 
 pub(crate) use answers::{assert_answers_agree, assert_exact_agree, wrong_answers};
 pub(crate) use timed::{call, form_cases, singular};
+pub(crate) use turns::{Pass, take_turns};
 
 use frusta::samples::{Placement, Random, Solid, singular_samples};
 use frusta::{Direction, EndRect, Frustum, Pose, Real, Rect, Segment, Shape, Vec3};

@@ -96,7 +96,13 @@ impl<T: Real> SegmentClipper<T> for VwProjection {
     ) -> Result<(), NonFiniteAt> {
         let level = Level::new();
         match self.arithmetic {
-            Arithmetic::Plain => todo!(),
+            Arithmetic::Plain => {
+                clips.clear();
+                for s in segments {
+                    clips.push(plain::run(frustum, s, plain::in_frame::<Plain, T>).unwrap());
+                }
+                Ok(())
+            }
             Arithmetic::Exact(accuracy) => {
                 slice::clip_exact(level, frustum, segments, accuracy, clips, counts)
             }

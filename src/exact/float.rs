@@ -54,6 +54,41 @@ impl Lanes for f64x2 {
     }
 }
 
+/// Makes registers of N numbers.
+pub(crate) trait Width<const N: usize>: Copy {
+    /// What it makes.
+    type Lanes: Lanes;
+
+    /// These numbers side by side.
+    fn lanes(self, values: [f64; N]) -> Self::Lanes;
+}
+
+/// One number.
+#[derive(Clone, Copy)]
+pub(crate) struct Single;
+
+impl Width<1> for Single {
+    type Lanes = f64;
+
+    #[inline(always)]
+    fn lanes(self, [value]: [f64; 1]) -> f64 {
+        value
+    }
+}
+
+/// Two numbers.
+#[derive(Clone, Copy)]
+pub(crate) struct Pair;
+
+impl Width<2> for Pair {
+    type Lanes = f64x2;
+
+    #[inline(always)]
+    fn lanes(self, values: [f64; 2]) -> f64x2 {
+        f64x2::new(values)
+    }
+}
+
 /// `a + b` rounded, and the rest: `s + e = a + b`.
 #[inline(always)]
 pub(crate) fn two_sum<F: Lanes>(a: F, b: F) -> (F, F) {

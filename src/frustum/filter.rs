@@ -160,18 +160,14 @@ impl Filter {
     /// Rounded frame coordinates, and S.
     #[inline(always)]
     fn frame<F: Lanes>(&self, p: Vec3<F>) -> (Vec3<F>, F) {
-        let size = |v: Vec3<F>| v.x.abs() + v.y.abs() + v.z.abs();
         if self.identity {
             return (p, size(p));
         }
         let all = |v: f64| p.x.all(v);
         let o = self.origin;
         let c = Vec3::new(p.x - all(o.x), p.y - all(o.y), p.z - all(o.z));
-        let dot = |k: usize| {
-            let a = self.axes[k];
-            all(a.x) * c.x + all(a.y) * c.y + all(a.z) * c.z
-        };
-        (Vec3::new(dot(0), dot(1), dot(2)), size(c))
+        let [x, y, z] = self.axes;
+        (Vec3::new(dot(x, c), dot(y, c), dot(z, c)), size(c))
     }
 
     /// Whether the bound holds for points of this size. False for NaN.
@@ -413,6 +409,17 @@ impl Filter {
             limit: limit.min(exp2(51 + unit)),
         })
     }
+}
+
+/// The sum of the coordinates' magnitudes.
+#[inline(always)]
+fn size<F: Lanes>(v: Vec3<F>) -> F {
+    v.x.abs() + v.y.abs() + v.z.abs()
+}
+
+#[inline(always)]
+fn dot<F: Lanes>(a: Vec3<f64>, c: Vec3<F>) -> F {
+    c.x.all(a.x) * c.x + c.x.all(a.y) * c.y + c.x.all(a.z) * c.z
 }
 
 /// Whether every number is in the range in which expansions are exact.

@@ -31,7 +31,7 @@
 
 use super::Shape;
 use crate::exact::double_double::Dd;
-use crate::exact::float::{Lanes, split, two_diff, two_prod_split, two_sum};
+use crate::exact::float::{Lanes, Single, Width, split, two_diff, two_prod_split, two_sum};
 use crate::math::{Pose, Vec3};
 use wide::f64x2;
 
@@ -134,57 +134,50 @@ impl Precise {
 
     /// Values of faces (by number) at points, side by side, up to their signs:
     /// each as a rounded value and a small rest whose exact sum is within 60 u^2
-    /// scale of the truth. `lanes` makes a register of numbers.
+    /// scale of the truth.
     #[inline(always)]
-    fn values<F: Lanes, const N: usize>(
+    fn values<W: Width<N>, const N: usize>(
         &self,
-        lanes: impl Fn([f64; N]) -> F,
+        width: W,
         faces: [usize; N],
         points: [Vec3<f64>; N],
-    ) -> (F, F) {
+    ) -> (W::Lanes, W::Lanes) {
         match &self.world {
-            None => self.values_in_frame(lanes, faces, points),
+            None => self.values_in_frame(width, faces, points),
             Some((origin, rows)) => {
-                let p = Vec3::new(
-                    lanes(points.map(|p| p.x)),
-                    lanes(points.map(|p| p.y)),
-                    lanes(points.map(|p| p.z)),
-                );
-                values_in_world(lanes, *origin, faces.map(|f| &rows[f & 7]), p)
+                values_in_world(width, *origin, faces.map(|f| &rows[f & 7]), points)
             }
         }
     }
 
     #[inline(always)]
-    fn values_in_frame<F: Lanes, const N: usize>(
+    fn values_in_frame<W: Width<N>, const N: usize>(
         &self,
-        lanes: impl Fn([f64; N]) -> F,
+        width: W,
         faces: [usize; N],
         points: [Vec3<f64>; N],
-    ) -> (F, F) {
+    ) -> (W::Lanes, W::Lanes) {
         let rows = faces.map(|f| &self.rows[f & 7]);
         let coordinate = |j: usize| {
             let p = points[j];
             [p.x, p.y, p.z, 0.0][rows[j].axis & 3]
         };
-        let c = lanes(std::array::from_fn(coordinate));
-        let z = lanes(points.map(|p| p.z));
-        let slope = lanes(rows.map(|r| r.slope));
-        let halves = (
-            lanes(rows.map(|r| r.halves.0)),
-            lanes(rows.map(|r| r.halves.1)),
-        );
+        let c = width.lanes(std::array::from_fn(coordinate));
+        let z = width.lanes(points.map(|p| p.z));
+        let slope = width.lanes(rows.map(|r| r.slope));
+        let upper = width.lanes(rows.map(|r| r.halves.0));
+        let lower = width.lanes(rows.map(|r| r.halves.1));
         let (w, w_rest) = two_diff(z, z.all(self.near));
-        let (product, low) = two_prod_split(slope, halves, w);
-        let low = low + (slope * w_rest + lanes(rows.map(|r| r.rest)) * w);
-        let (across, more) = two_diff(c, lanes(rows.map(|r| r.at)));
+        let (product, low) = two_prod_split(slope, (upper, lower), w);
+        let low = low + (slope * w_rest + width.lanes(rows.map(|r| r.rest)) * w);
+        let (across, more) = two_diff(c, width.lanes(rows.map(|r| r.at)));
         let (g, rest) = two_diff(across, product);
         (g, rest + (more - low))
     }
 
     /// One face's value with its sign, the high part rounded.
     pub(crate) fn value(&self, face: usize, p: Vec3<f64>) -> Dd {
-        let (g, rest) = self.values(|[v]: [f64; 1]| v, [face], [p]);
+        let (g, rest) = self.values(Single, [face], [p]);
         let value = Dd::new(g, rest).normal();
         if self.signs[face] < 0.0 {
             value.neg()
@@ -215,41 +208,49 @@ impl Precise {
     /// The values' magnitudes, rounded: relative error below u (1 + 1/2) where
     /// the filter is certain.
     #[inline(always)]
-    pub(crate) fn magnitudes<F: Lanes, const N: usize>(
+    pub(crate) fn magnitudes<W: Width<N>, const N: usize>(
         &self,
-        lanes: impl Fn([f64; N]) -> F,
+        width: W,
         faces: [usize; N],
         points: [Vec3<f64>; N],
-    ) -> F {
-        let (g, rest) = self.values(lanes, faces, points);
+    ) -> W::Lanes {
+        let (g, rest) = self.values(width, faces, points);
         (g + rest).abs()
     }
 }
 
 #[inline(always)]
-fn values_in_world<F: Lanes, const N: usize>(
-    lanes: impl Fn([f64; N]) -> F,
+fn values_in_world<W: Width<N>, const N: usize>(
+    width: W,
     origin: Vec3<f64>,
     rows: [&WorldRow; N],
-    p: Vec3<F>,
-) -> (F, F) {
-    let term = |j: usize, p: F, o: f64| {
-        let (c, c_low) = two_diff(p, p.all(o));
-        let normal = lanes(rows.map(|r| r.normal[j]));
-        let halves = (
-            lanes(rows.map(|r| r.halves[j].0)),
-            lanes(rows.map(|r| r.halves[j].1)),
-        );
-        let (product, rest) = two_prod_split(normal, halves, c);
-        let low = normal * c_low + lanes(rows.map(|r| r.rests[j])) * c;
-        (product, rest + low)
-    };
-    let (x, x_rest) = term(0, p.x, origin.x);
-    let (y, y_rest) = term(1, p.y, origin.y);
-    let (z, z_rest) = term(2, p.z, origin.z);
+    points: [Vec3<f64>; N],
+) -> (W::Lanes, W::Lanes) {
+    let (x, x_rest) = term(width, 0, rows, points, origin);
+    let (y, y_rest) = term(width, 1, rows, points, origin);
+    let (z, z_rest) = term(width, 2, rows, points, origin);
     let (xy, e) = two_sum(x, y);
     let (xyz, f) = two_sum(xy, z);
-    let (g, h) = two_sum(xyz, lanes(rows.map(|r| r.offset)));
-    let sums = (e + f) + (h + lanes(rows.map(|r| r.offset_rest)));
+    let (g, h) = two_sum(xyz, width.lanes(rows.map(|r| r.offset)));
+    let sums = (e + f) + (h + width.lanes(rows.map(|r| r.offset_rest)));
     (g, ((x_rest + y_rest) + z_rest) + sums)
+}
+
+/// What coordinate j contributes.
+#[inline(always)]
+fn term<W: Width<N>, const N: usize>(
+    width: W,
+    j: usize,
+    rows: [&WorldRow; N],
+    points: [Vec3<f64>; N],
+    origin: Vec3<f64>,
+) -> (W::Lanes, W::Lanes) {
+    let p = width.lanes(points.map(|p| p[j]));
+    let (c, c_low) = two_diff(p, p.all(origin[j]));
+    let normal = width.lanes(rows.map(|r| r.normal[j]));
+    let upper = width.lanes(rows.map(|r| r.halves[j].0));
+    let lower = width.lanes(rows.map(|r| r.halves[j].1));
+    let (product, rest) = two_prod_split(normal, (upper, lower), c);
+    let low = normal * c_low + width.lanes(rows.map(|r| r.rests[j])) * c;
+    (product, rest + low)
 }

@@ -25,6 +25,7 @@ use crate::clip::{Accuracy, Part, PartEnd, SegmentClip};
 use crate::exact::Number;
 use crate::exact::double_double::Dd;
 use crate::exact::dyadic::Dyadic;
+use crate::exact::float::Single;
 use crate::frustum::filter::Filter;
 use crate::frustum::{Face, FaceSet};
 use crate::math::{End, Real, Segment, Vec3};
@@ -158,7 +159,7 @@ fn step(staged: &mut Staged<'_>, face: Face) -> Step {
     if staged.certain(face) {
         let Segment { start, end } = staged.segment;
         let precise = &staged.filter().precise;
-        let value = |p| precise.magnitudes(|[v]: [f64; 1]| v, [face as usize], [p]);
+        let value = |p| precise.magnitudes(Single, [face as usize], [p]);
         return Step::new(value(start), value(end), &staged.segment);
     }
     // Near and far of the identity pose are one subtraction, the same bits as

@@ -30,6 +30,7 @@ use super::{lattice, points};
 use crate::clip::plain::outside;
 use crate::clip::predicates::{Predicates, Role, Span};
 use crate::clip::{Accuracy, Class, SegmentClip, StageCounts};
+use crate::exact::float::Pair;
 use crate::frustum::filter::{Filter, Values};
 use crate::frustum::{Face, FaceSet, Form, Frustum, General, Layout, Orthographic, Symmetric};
 use crate::math::{End, NonFinite, Real, Segment};
@@ -256,10 +257,8 @@ fn number(t: f64) -> usize {
 #[inline(always)]
 fn fast<T: Real>(filter: &Filter, wide: &Segment<f64>, crossing: &Crossing) -> SegmentClip<T> {
     let Crossing { faces, clipped } = *crossing;
-    let a = filter
-        .precise
-        .magnitudes(f64x2::new, faces, [wide.start; 2]);
-    let b = filter.precise.magnitudes(f64x2::new, faces, [wide.end; 2]);
+    let a = filter.precise.magnitudes(Pair, faces, [wide.start; 2]);
+    let b = filter.precise.magnitudes(Pair, faces, [wide.end; 2]);
     let ends = Ends {
         crossing: clipped,
         end: f64x2::new([0.0, f64::from_bits(u64::MAX)]),

@@ -2,7 +2,7 @@
 //! `clip/exact/vw.rs`, where their proofs are.
 
 use super::Chunk;
-use super::lanes::{ends, points};
+use super::lanes::{Quad, ends};
 use super::points::construct;
 use super::queue::{Crossed, Queues};
 use crate::clip::exact::{self, vw::ROUNDING};
@@ -15,7 +15,7 @@ use fearless_simd::{f64x4, mask64x4, u64x4};
 
 /// A chunk on its way.
 pub(super) struct Run<'a, S, T> {
-    pub(super) simd: S,
+    pub(super) quad: Quad<S>,
     pub(super) chunk: Chunk<'a, T>,
     pub(super) accuracy: Accuracy,
     pub(super) queues: &'a mut Queues,
@@ -52,16 +52,21 @@ impl<S: Simd> Values<S> {
     /// Which segments' signs prove that they are outside, inside, crossing.
     #[inline(always)]
     fn triage(&self) -> [mask64x4<S>; 3] {
-        let (a, b) = (&self.a, &self.b);
-        let least_of = |v: [f64x4<S>; 6]| (v[0].min(v[1]), (v[2].min(v[3])).min(v[4].min(v[5])));
-        let beyond = |v: [f64x4<S>; 6]| {
-            let (depth, side) = least_of(v);
-            depth.simd_gt(self.depth) & side.simd_gt(self.side)
-        };
-        let (depth, side) = least_of(std::array::from_fn(|i| a[i].max(b[i])));
-        let outside = depth.simd_lt(-self.depth) | side.simd_lt(-self.side);
-        let inside = beyond(std::array::from_fn(|i| a[i].min(b[i])));
-        let crossing = beyond(std::array::from_fn(|i| a[i].abs().min(b[i].abs())));
+        let mut greatest = Least::new(self.a[0].max(self.b[0]), self.a[2].max(self.b[2]));
+        let mut least = Least::new(self.a[0].min(self.b[0]), self.a[2].min(self.b[2]));
+        let mut nearest = Least::new(
+            self.a[0].abs().min(self.b[0].abs()),
+            self.a[2].abs().min(self.b[2].abs()),
+        );
+        for i in [1, 3, 4, 5] {
+            let (a, b) = (self.a[i], self.b[i]);
+            greatest.add(i, a.max(b));
+            least.add(i, a.min(b));
+            nearest.add(i, a.abs().min(b.abs()));
+        }
+        let outside = greatest.depth.simd_lt(-self.depth) | greatest.side.simd_lt(-self.side);
+        let inside = least.beyond(self.depth, self.side);
+        let crossing = nearest.beyond(self.depth, self.side);
         let outside = self.covered & outside;
         let inside = self.covered & inside & !outside;
         [
@@ -73,8 +78,8 @@ impl<S: Simd> Values<S> {
 
     /// Latest entry and earliest exit, as `certify` in `clip/exact/vw.rs`.
     #[inline(always)]
-    fn certify<L: Layout>(&self, simd: S) -> Certificate<S> {
-        let all = |v: f64| -> f64x4<S> { v.simd_into(simd) };
+    fn certify<L: Layout>(&self, quad: Quad<S>) -> Certificate<S> {
+        let all = |v: f64| quad.all(v);
         let mut enter = Two::new(all(-4.0));
         let mut leave = Two::new(all(-4.0));
         let mut scales = [all(0.0); 2];
@@ -97,15 +102,41 @@ impl<S: Simd> Values<S> {
         let error = (error + ROUNDING) * 2.0;
         let overlap = enter.first + leave.first;
         let uncrossed = [enter.first.simd_lt(-0.5), leave.first.simd_lt(-1.5)];
-        let single = |v: Two<S>, uncrossed| (v.second + error).simd_lt(v.first) | uncrossed;
         Certificate {
             outside: overlap.simd_gt(error),
-            certain: single(enter, uncrossed[0])
-                & single(leave, uncrossed[1])
+            certain: (enter.single(error) | uncrossed[0])
+                & (leave.single(error) | uncrossed[1])
                 & overlap.simd_lt(-error),
             clipped: uncrossed.map(|none| (!none).to_bitmask()),
             faces: (enter.first.to_bits() & 7) | ((leave.first.to_bits() & 7) << 3),
         }
+    }
+}
+
+/// The least of near and far, and of the sides.
+struct Least<S: Simd> {
+    depth: f64x4<S>,
+    side: f64x4<S>,
+}
+
+impl<S: Simd> Least<S> {
+    #[inline(always)]
+    fn new(depth: f64x4<S>, side: f64x4<S>) -> Self {
+        Self { depth, side }
+    }
+
+    #[inline(always)]
+    fn add(&mut self, face: usize, v: f64x4<S>) {
+        if face < 2 {
+            self.depth = self.depth.min(v);
+        } else {
+            self.side = self.side.min(v);
+        }
+    }
+
+    #[inline(always)]
+    fn beyond(&self, depth: f64x4<S>, side: f64x4<S>) -> mask64x4<S> {
+        self.depth.simd_gt(depth) & self.side.simd_gt(side)
     }
 }
 
@@ -117,6 +148,15 @@ struct Certificate<S: Simd> {
     clipped: [u64; 2],
     /// For [`Crossed`].
     faces: u64x4<S>,
+}
+
+/// Whether all coordinates are on the lattice: see `Filter::on_lattice`.
+#[inline(always)]
+fn on_grid<S: Simd>(round: f64, v: Vec3<f64x4<S>>) -> mask64x4<S> {
+    let x = ((v.x + round) - round).simd_eq(v.x);
+    let y = ((v.y + round) - round).simd_eq(v.y);
+    let z = ((v.z + round) - round).simd_eq(v.z);
+    x & y & z
 }
 
 /// A parameter with the face's number in its last three bits.
@@ -145,6 +185,12 @@ impl<S: Simd> Two<S> {
     fn add(&mut self, v: f64x4<S>) {
         self.second = self.second.max(self.first.min(v));
         self.first = self.first.max(v);
+    }
+
+    /// Where the greatest is that by more than an error.
+    #[inline(always)]
+    fn single(&self, error: f64x4<S>) -> mask64x4<S> {
+        (self.second + error).simd_lt(self.first)
     }
 }
 
@@ -182,7 +228,8 @@ impl<S: Simd, T: Real> Run<'_, S, T> {
     #[inline(always)]
     fn triage_four<L: Layout>(&mut self, group: [&Segment<T>; 4], base: usize, present: u64) {
         let filter = self.chunk.frustum.filter();
-        let [p, q] = ends(group).map(|end| points(self.simd, end));
+        let [p, q] = ends(group);
+        let (p, q) = (self.quad.points(p), self.quad.points(q));
         let values = Values::new::<L>(filter, p, q);
         let [outside, inside, crossing] = values.triage();
         let settled = (outside | inside).to_bitmask();
@@ -192,10 +239,9 @@ impl<S: Simd, T: Real> Run<'_, S, T> {
             // Points are constructed elsewhere.
             crossing = 0;
         } else if let Some((round, limit)) = filter.lattice() {
-            let on = |v: f64x4<S>| ((v + round) - round).simd_eq(v);
-            let [small_p, small_q] = values.sizes.map(|size| size.simd_lt(limit));
-            let on = (on(p.x) & on(p.y) & on(p.z)) & (on(q.x) & on(q.y) & on(q.z));
-            let lattice = (on & small_p & small_q).to_bitmask() & present;
+            let small = values.sizes[0].simd_lt(limit) & values.sizes[1].simd_lt(limit);
+            let lattice = small & on_grid(round, p) & on_grid(round, q);
+            let lattice = lattice.to_bitmask() & present;
             // Those that are settled are counted here, the rest where it is.
             self.counts.lattice += u64::from((lattice & settled).count_ones());
             crossing &= !lattice;
@@ -220,8 +266,9 @@ impl<S: Simd, T: Real> Run<'_, S, T> {
         let filter = self.chunk.frustum.filter();
         for (items, count) in crossing.groups() {
             let group = items.map(|i| &self.chunk.segments[i as usize]);
-            let [p, q] = ends(group).map(|end| points(self.simd, end));
-            let found = Values::new::<L>(filter, p, q).certify::<L>(self.simd);
+            let [p, q] = ends(group);
+            let (p, q) = (self.quad.points(p), self.quad.points(q));
+            let found = Values::new::<L>(filter, p, q).certify::<L>(self.quad);
             let present = 0xf >> (4 - count);
             let certain = found.certain.to_bitmask() & present;
             let open = !(found.certain | found.outside).to_bitmask() & present;
@@ -242,7 +289,7 @@ impl<S: Simd, T: Real> Run<'_, S, T> {
         for (items, _) in self.queues.crossed.groups() {
             let items = items.map(Crossed);
             let group = items.map(|c| &self.chunk.segments[c.item()]);
-            let clips = construct(self.simd, filter, items, group);
+            let clips = construct(self.quad, filter, items, group);
             // The last group's repeated items have the same clips.
             for (item, clip) in items.into_iter().zip(clips) {
                 self.chunk.clips[item.item()] = clip;

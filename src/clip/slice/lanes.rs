@@ -1,25 +1,45 @@
 //! Four segments side by side.
 
-use crate::exact::float::{Lanes, split};
+use crate::exact::float::{Lanes, Width, split};
 use crate::math::{Real, Segment, Vec3};
 use fearless_simd::prelude::*;
-use fearless_simd::{Level, f64x4};
+use fearless_simd::{Level, f64x4, mask64x4};
 
-/// A register of four numbers.
-#[inline(always)]
-pub(super) fn lanes<S: Simd>(simd: S) -> impl Fn([f64; 4]) -> f64x4<S> + Copy {
-    move |values| values.simd_into(simd)
+/// Four numbers, at a vector width.
+#[derive(Clone, Copy)]
+pub(super) struct Quad<S>(pub(super) S);
+
+impl<S: Simd> Width<4> for Quad<S> {
+    type Lanes = f64x4<S>;
+
+    #[inline(always)]
+    fn lanes(self, values: [f64; 4]) -> f64x4<S> {
+        values.simd_into(self.0)
+    }
 }
 
-/// Starts or ends of four segments.
-#[inline(always)]
-pub(super) fn points<S: Simd>(simd: S, p: [Vec3<f64>; 4]) -> Vec3<f64x4<S>> {
-    let lanes = lanes(simd);
-    Vec3::new(
-        lanes(p.map(|p| p.x)),
-        lanes(p.map(|p| p.y)),
-        lanes(p.map(|p| p.z)),
-    )
+impl<S: Simd> Quad<S> {
+    /// The same number four times.
+    #[inline(always)]
+    pub(super) fn all(self, value: f64) -> f64x4<S> {
+        value.simd_into(self.0)
+    }
+
+    /// Four points.
+    #[inline(always)]
+    pub(super) fn points(self, p: [Vec3<f64>; 4]) -> Vec3<f64x4<S>> {
+        Vec3::new(
+            self.lanes(p.map(|p| p.x)),
+            self.lanes(p.map(|p| p.y)),
+            self.lanes(p.map(|p| p.z)),
+        )
+    }
+
+    /// A mask.
+    #[inline(always)]
+    pub(super) fn mask(self, lanes: [bool; 4]) -> mask64x4<S> {
+        lanes.map(|lane| -i64::from(lane)).simd_into(self.0)
+    }
 }
 
 /// Both ends of four segments, in `f64`.

@@ -126,7 +126,7 @@ fn exact_chunk<S: Simd, T: Real>(
     counts: &mut StageCounts,
 ) -> Result<(), NonFiniteAt> {
     let mut run = exact::Run {
-        simd,
+        quad: lanes::Quad(simd),
         chunk,
         accuracy,
         queues,

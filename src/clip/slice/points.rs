@@ -1,9 +1,10 @@
 //! The ends of four segments with certain crossings, by the rule of
 //! `clip/exact/points.rs`; compare `clip/exact/pair.rs`.
 
-use super::lanes::{ends, lanes, points};
+use super::lanes::{Quad, ends};
 use super::queue::Crossed;
 use crate::clip::{Class, Part, PartEnd, SegmentClip};
+use crate::exact::float::Width;
 use crate::frustum::FaceSet;
 use crate::frustum::filter::Filter;
 use crate::math::{Real, Segment, Vec3};
@@ -21,31 +22,28 @@ struct Ends {
 /// Clips four segments.
 #[inline(always)]
 pub(super) fn construct<S: Simd, T: Real>(
-    simd: S,
+    quad: Quad<S>,
     filter: &Filter,
     crossed: [Crossed; 4],
     segments: [&Segment<T>; 4],
 ) -> [SegmentClip<T>; 4] {
     let ends = ends(segments);
-    let part = |exit: bool| {
-        let faces = crossed.map(|c| c.face(exit));
-        let clipped = crossed.map(|c| -i64::from(c.clipped(exit)));
-        end(simd, filter, faces, clipped.simd_into(simd), &ends, exit)
-    };
-    let (entry, exit) = (part(false), part(true));
-    std::array::from_fn(|j| SegmentClip {
+    let entries = part_ends::<S, false>(quad, filter, crossed, &ends);
+    let exits = part_ends::<S, true>(quad, filter, crossed, &ends);
+    let clip = |j: usize| SegmentClip {
         class: Class::Cross,
         part: Some(Part {
-            entry: assemble(&entry, crossed[j], j, false),
-            exit: assemble(&exit, crossed[j], j, true),
+            entry: assemble::<T, false>(&entries, crossed[j], j),
+            exit: assemble::<T, true>(&exits, crossed[j], j),
             coplanar: FaceSet::EMPTY,
         }),
-    })
+    };
+    [clip(0), clip(1), clip(2), clip(3)]
 }
 
 #[inline(always)]
-fn assemble<T: Real>(ends: &Ends, crossed: Crossed, j: usize, exit: bool) -> PartEnd<T> {
-    let clipped = crossed.clipped(exit);
+fn assemble<T: Real, const EXIT: bool>(ends: &Ends, crossed: Crossed, j: usize) -> PartEnd<T> {
+    let clipped = crossed.clipped(EXIT);
     PartEnd {
         t: T::from_f64(ends.t[j]),
         point: Vec3::new(
@@ -54,54 +52,74 @@ fn assemble<T: Real>(ends: &Ends, crossed: Crossed, j: usize, exit: bool) -> Par
             T::from_f64(ends.z[j]),
         ),
         clipped,
-        faces: FaceSet::from_bits(u8::from(clipped) << crossed.face(exit)),
+        faces: FaceSet::from_bits(u8::from(clipped) << crossed.face(EXIT)),
         inward: !clipped,
     }
 }
 
-/// Entries, or exits: crossings with faces where `clipped`, else the segments' own
-/// ends.
-#[inline(always)]
-fn end<S: Simd>(
-    simd: S,
-    filter: &Filter,
-    faces: [usize; 4],
+/// How the points of four crossings are made.
+struct Step<S: Simd> {
+    /// Where a crossing is nearer to the end than to the start.
+    from_end: mask64x4<S>,
+    /// The way from there, against the segment's direction from the end.
+    signed: f64x4<S>,
     clipped: mask64x4<S>,
+}
+
+impl<S: Simd> Step<S> {
+    /// Adding zero: the sign of a zero must not depend on the order of the ends.
+    #[inline(always)]
+    fn crossed(&self, p: f64x4<S>, q: f64x4<S>) -> f64x4<S> {
+        self.from_end.select(q, p) + self.signed * (q - p) + 0.0
+    }
+
+    /// A crossing's coordinate, else that of the segment's own end.
+    #[inline(always)]
+    fn select<const EXIT: bool>(&self, v: f64x4<S>, p: f64x4<S>, q: f64x4<S>) -> [f64; 4] {
+        self.clipped.select(v, if EXIT { q } else { p }).into()
+    }
+}
+
+/// Entries, or exits.
+#[inline(always)]
+fn part_ends<S: Simd, const EXIT: bool>(
+    quad: Quad<S>,
+    filter: &Filter,
+    crossed: [Crossed; 4],
     [starts, finishes]: &[[Vec3<f64>; 4]; 2],
-    exit: bool,
 ) -> Ends {
-    let all = |v: f64| -> f64x4<S> { v.simd_into(simd) };
-    let a = filter.precise.magnitudes(lanes(simd), faces, *starts);
-    let b = filter.precise.magnitudes(lanes(simd), faces, *finishes);
-    let (p, q) = (points(simd, *starts), points(simd, *finishes));
+    let faces = crossed.map(|c| c.face(EXIT));
+    let clipped = quad.mask(crossed.map(|c| c.clipped(EXIT)));
+    let a = filter.precise.magnitudes(quad, faces, *starts);
+    let b = filter.precise.magnitudes(quad, faces, *finishes);
+    let (p, q) = (quad.points(*starts), quad.points(*finishes));
     let mut from_end = b.simd_lt(a);
     let ties = a.simd_eq(b);
     if ties.any_true() {
-        from_end |= ties & lesser(simd, starts, finishes);
+        from_end |= ties & quad.mask(lesser(starts, finishes));
     }
+    let (zero, one) = (quad.all(0.0), quad.all(1.0));
     let tau = a.min(b) / (a + b);
-    let t = from_end.select(all(1.0) - tau, tau);
-    let signed = from_end.select(-tau, tau);
-    // Adding zero: the sign of a zero must not depend on the order of the ends.
-    let crossed = |p: f64x4<S>, q: f64x4<S>| from_end.select(q, p) + signed * (q - p) + 0.0;
-    let own = |p, q| if exit { q } else { p };
-    let select = |v: f64x4<S>, p, q| -> [f64; 4] { clipped.select(v, own(p, q)).into() };
-    let mut z = crossed(p.z, q.z);
+    let t = from_end.select(one - tau, tau);
+    let step = Step {
+        from_end,
+        signed: from_end.select(-tau, tau),
+        clipped,
+    };
+    let mut z = step.crossed(p.z, q.z);
     if let Some((level, at)) = filter.precise.levels(faces) {
-        let level: mask64x4<S> = level.map(|l| -i64::from(l)).simd_into(simd);
-        z = level.select(at.simd_into(simd), z);
+        z = quad.mask(level).select(quad.lanes(at), z);
     }
     Ends {
-        t: select(t, all(0.0), all(1.0)),
-        x: select(crossed(p.x, q.x), p.x, q.x),
-        y: select(crossed(p.y, q.y), p.y, q.y),
-        z: select(z, p.z, q.z),
+        t: step.select::<EXIT>(t, zero, one),
+        x: step.select::<EXIT>(step.crossed(p.x, q.x), p.x, q.x),
+        y: step.select::<EXIT>(step.crossed(p.y, q.y), p.y, q.y),
+        z: step.select::<EXIT>(z, p.z, q.z),
     }
 }
 
 /// Where the end is lexicographically smaller than the start.
 #[cold]
-fn lesser<S: Simd>(simd: S, starts: &[Vec3<f64>; 4], finishes: &[Vec3<f64>; 4]) -> mask64x4<S> {
-    let lesser = |j: usize| -i64::from(starts[j].to_array() > finishes[j].to_array());
-    [0, 1, 2, 3].map(lesser).simd_into(simd)
+fn lesser(starts: &[Vec3<f64>; 4], finishes: &[Vec3<f64>; 4]) -> [bool; 4] {
+    [0, 1, 2, 3].map(|j: usize| starts[j].to_array() > finishes[j].to_array())
 }

@@ -1,17 +1,21 @@
 //! How fast the clippers are, as ratios to textbook Liang-Barsky.
 //!
-//! `cargo bench --bench ratios [-- ROUNDS]`. On a machine that others use, too,
+//! `cargo bench --bench ratios [-- ROUNDS] [singles|slices]`. On a machine that others use, too,
 //! times drift within seconds; ratios drift less. So the clippers take turns,
 //! a ratio is taken within each round, and medians over the rounds are printed.
 //! Answers are compared first.
 
+#[path = "../mixes/mod.rs"]
 mod mixes;
+mod slices;
 
 use frusta::{
     Accuracy, CohenSutherland, CyrusBeck, Frustum, LiangBarsky, LiangBarskyVariant, Pose, Real,
     Segment, SegmentClipper, SixPlanes, VwProjection,
 };
-use mixes::{COUNT, Form, Mix, assert_answers_agree, call, form_cases, frustum, poses};
+use mixes::{
+    COUNT, Form, Mix, Pass, assert_answers_agree, call, form_cases, frustum, poses, take_turns,
+};
 use std::hint::black_box;
 use std::time::Instant;
 
@@ -23,8 +27,6 @@ fn pass<T: Real>(clipper: impl SegmentClipper<T>, frustum: &Frustum, all: &[Segm
     }
     start.elapsed().as_nanos() as f64 / all.len() as f64
 }
-
-type Pass<'a> = Box<dyn Fn() -> f64 + 'a>;
 
 /// The clippers that take turns; the first is what the others are compared with.
 fn clippers<'a, T: Real>(f: &'a Frustum, all: &'a [Segment<T>]) -> Vec<(&'static str, Pass<'a>)> {
@@ -52,32 +54,6 @@ fn clippers<'a, T: Real>(f: &'a Frustum, all: &'a [Segment<T>]) -> Vec<(&'static
     ]
 }
 
-/// Median times, and median ratios of the first one's time to each.
-fn take_turns(passes: &[Pass<'_>], rounds: usize) -> Vec<(f64, f64)> {
-    let mut times = vec![Vec::new(); passes.len()];
-    let mut ratios = vec![Vec::new(); passes.len()];
-    for round in 0..rounds + 2 {
-        let mut now = vec![0.0; passes.len()];
-        for turn in 0..passes.len() {
-            let i = (round + turn) % passes.len();
-            now[i] = passes[i]();
-        }
-        // The first rounds warm up.
-        if round >= 2 {
-            for (i, &time) in now.iter().enumerate() {
-                times[i].push(time);
-                ratios[i].push(now[0] / time);
-            }
-        }
-    }
-    let median = |mut v: Vec<f64>| {
-        v.sort_by(f64::total_cmp);
-        v[v.len() / 2]
-    };
-    let medians = times.into_iter().zip(ratios);
-    medians.map(|(t, r)| (median(t), median(r))).collect()
-}
-
 fn heading(names: &[&str]) {
     print!("{:14} {:>5} {:>5} {:>5}", "", "out", "in", "cross");
     names.iter().for_each(|name| print!(" {name:>14}"));
@@ -97,12 +73,13 @@ fn table<T: Real>(scalar: &str, form: Form, (place, pose): (&str, Pose), rounds:
     for mix in Mix::ALL {
         let segments = mix.segments::<T>(&pose);
         let [out, _, _, inside, cross] = assert_answers_agree(&frustum, &segments);
-        let (names, passes): (Vec<_>, Vec<_>) = clippers(&frustum, &segments).into_iter().unzip();
+        let (names, mut passes): (Vec<_>, Vec<_>) =
+            clippers(&frustum, &segments).into_iter().unzip();
         if mix == Mix::ALL[0] {
             heading(&names);
         }
         print!("{:14} {out:5} {inside:5} {cross:5}", mix.name());
-        row(&take_turns(&passes, rounds));
+        row(&take_turns(&mut passes, rounds));
     }
 }
 
@@ -112,10 +89,10 @@ fn singular(rounds: usize) {
     for case in mixes::singular() {
         println!("\nf64, the 78 singular samples, in the {}", case.place);
         let passes = clippers(&case.frustum, &case.segments);
-        let (names, passes): (Vec<_>, Vec<_>) = passes.into_iter().unzip();
+        let (names, mut passes): (Vec<_>, Vec<_>) = passes.into_iter().unzip();
         heading(&names);
         print!("{:32}", "");
-        row(&take_turns(&passes, rounds));
+        row(&take_turns(&mut passes, rounds));
         print!("{:32}", format!("wrong of {COUNT}"));
         for (_, wrong) in case.wrong {
             print!(" {wrong:14}");
@@ -130,21 +107,19 @@ fn forms(rounds: usize) {
     println!("\nf64, in the frame: plain V/W in the general form, and in its own");
     for case in form_cases() {
         let all = &case.segments;
-        let passes: [Pass<'_>; 2] = [
+        let mut passes: [Pass<'_>; 2] = [
             Box::new(|| pass(VwProjection::plain(), &case.general, all)),
             Box::new(|| pass(VwProjection::plain(), &case.own, all)),
         ];
-        let turns = take_turns(&passes, rounds);
+        let turns = take_turns(&mut passes, rounds);
         let [(a, _), (b, ratio)] = [turns[0], turns[1]];
         let (form, mix) = (case.form.name(), case.mix.name());
         println!("{form:14} {mix:14} {a:6.1} {b:6.1} ({ratio:5.2})");
     }
 }
 
-fn main() {
-    // Cargo passes --bench, too.
-    let rounds = std::env::args().skip(1).find_map(|arg| arg.parse().ok());
-    let rounds = rounds.unwrap_or(10_usize).max(1);
+/// One by one.
+fn singles(rounds: usize) {
     println!("nanoseconds a segment; in brackets how many times as fast as textbook Liang-Barsky");
     for place in poses() {
         table::<f64>("f64", Form::Symmetric, place, rounds);
@@ -155,4 +130,18 @@ fn main() {
     }
     singular(rounds);
     forms(rounds);
+}
+
+fn main() {
+    // Cargo passes --bench, too.
+    let args: Vec<String> = std::env::args().skip(1).collect();
+    let rounds = args.iter().find_map(|arg| arg.parse().ok());
+    let rounds = rounds.unwrap_or(10_usize).max(1);
+    let asked = |name: &str| args.iter().any(|arg| arg == name);
+    if !asked("slices") {
+        singles(rounds);
+    }
+    if !asked("singles") {
+        slices::print(rounds);
+    }
 }
