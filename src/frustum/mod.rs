@@ -105,9 +105,9 @@ impl Frustum {
         &self.shape
     }
 
-    /// Coefficients for plain arithmetic in `T`.
+    /// Coefficients for plain arithmetic in `T`, which there are for `f32` and `f64`.
     #[inline(always)]
-    pub(crate) fn plain<T: Real>(&self) -> &PlainFrustum<T> {
+    pub(crate) fn plain<T: Real>(&self) -> Option<&PlainFrustum<T>> {
         T::pick(&self.plain)
     }
 
