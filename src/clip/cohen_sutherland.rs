@@ -84,7 +84,8 @@ impl<T: Real> SegmentClipper<T> for CohenSutherland {
     }
 }
 
-struct Plain;
+/// The plain tier.
+pub(crate) struct Plain;
 
 #[inline(always)]
 fn values<T: Real, L: Layout>(f: &PlainFrustum<T>, p: Vec3<T>) -> [T; 6] {
@@ -135,7 +136,7 @@ impl InFrame for Plain {
                 } else {
                     plain::min(crossing, t[1])
                 };
-                let v = values::<T, L>(f, p + d * t[end]);
+                let v = values::<T, L>(f, d.times_plus(t[end], p));
                 let anew = code(&v, out);
                 if anew & first[1 - end] != 0 {
                     return plain::outside();

@@ -80,8 +80,9 @@ impl<T: Real> SegmentClipper<T> for CyrusBeck {
     }
 }
 
+/// The plain tier.
 #[inline(always)]
-fn clip<T: Real>(f: &PlainFrustum<T>, segment: &Segment<T>) -> SegmentClip<T> {
+pub(crate) fn clip<T: Real>(f: &PlainFrustum<T>, segment: &Segment<T>) -> SegmentClip<T> {
     let mut found = Found::WHOLE;
     for &face in f.faces() {
         let plane = &f.planes[face as usize];

@@ -110,13 +110,15 @@ impl<T: Real> SegmentClipper<T> for LiangBarsky {
 }
 
 /// Takes in a side by its values at both ends.
-trait Side {
+pub(crate) trait Side {
     /// False if the segment is outside.
     fn side<T: Real>(found: &mut Found<T>, face: Face, a: T, b: T) -> bool;
 }
 
-struct Textbook;
-struct Tuned;
+/// [`LiangBarskyVariant::Textbook`].
+pub(crate) struct Textbook;
+/// [`LiangBarskyVariant::Tuned`].
+pub(crate) struct Tuned;
 
 impl Side for Textbook {
     #[inline(always)]
@@ -151,7 +153,8 @@ impl Side for Tuned {
     }
 }
 
-struct Plain<S>(PhantomData<S>);
+/// The plain tier.
+pub(crate) struct Plain<S>(PhantomData<S>);
 
 impl<S: Side> InFrame for Plain<S> {
     #[inline(always)]

@@ -1,16 +1,16 @@
 //! Clipping segments: one file an algorithm, behind one trait.
 
-mod cohen_sutherland;
+pub(crate) mod cohen_sutherland;
 mod contains;
-mod cyrus_beck;
+pub(crate) mod cyrus_beck;
 mod exact;
-mod liang_barsky;
-mod plain;
+pub(crate) mod liang_barsky;
+pub(crate) mod plain;
 mod predicates;
 mod result;
-mod six_planes;
+pub(crate) mod six_planes;
 mod slice;
-mod vw;
+pub(crate) mod vw;
 
 pub use cohen_sutherland::CohenSutherland;
 pub use cyrus_beck::CyrusBeck;

@@ -17,19 +17,33 @@ use crate::math::{NonFinite, Real, Segment, Vec3};
 pub(crate) type PlainClip<T> = fn(&PlainFrustum<T>, &Segment<T>) -> SegmentClip<T>;
 
 /// Runs a plain clipper on a checked segment.
-///
-/// The clipper sees only segments whose coordinates' magnitudes have a finite
-/// sum, so that no difference and no interpolated coordinate overflows.
 #[inline(always)]
 pub(crate) fn run<T: Real>(
     frustum: &Frustum,
     segment: &Segment<T>,
     clip: PlainClip<T>,
 ) -> Result<SegmentClip<T>, NonFinite> {
+    match frustum.plain() {
+        Some(plain) => run_prepared(frustum, plain, segment, clip),
+        None => run_prepared(frustum, &frustum.plain_scaled(1.0), segment, clip),
+    }
+}
+
+/// The same with the frustum's coefficients.
+///
+/// The clipper sees only segments whose coordinates' magnitudes have a finite
+/// sum, so that no difference and no interpolated coordinate overflows.
+#[inline(always)]
+pub(crate) fn run_prepared<T: Real>(
+    frustum: &Frustum,
+    plain: &PlainFrustum<T>,
+    segment: &Segment<T>,
+    clip: PlainClip<T>,
+) -> Result<SegmentClip<T>, NonFinite> {
     let Segment { start: p, end: q } = segment;
     let sum = (p.x.abs() + p.y.abs() + p.z.abs()) + (q.x.abs() + q.y.abs() + q.z.abs());
     if sum.is_finite() {
-        return Ok(clip(frustum.plain(), segment));
+        return Ok(clip(plain, segment));
     }
     run_huge(frustum, segment, clip)
 }
@@ -176,8 +190,8 @@ impl<T: Real> Found<T> {
         // Both points are always computed: choosing afterwards costs less than
         // a mispredicted branch.
         let d = q - p;
-        let first = choose(self.clipped[0], p + d * t0, p);
-        let last = choose(self.clipped[1], p + d * t1, q);
+        let first = choose(self.clipped[0], d.times_plus(t0, p), p);
+        let last = choose(self.clipped[1], d.times_plus(t1, p), q);
         let both = self.faces[0].union(self.faces[1]);
         let [entry, exit] = if touch { [both, both] } else { self.faces };
         let class = if touch {

@@ -110,8 +110,9 @@ impl<T: Real> Kept<T> {
     }
 }
 
+/// The plain tier.
 #[inline(always)]
-fn clip<T: Real>(f: &PlainFrustum<T>, segment: &Segment<T>) -> SegmentClip<T> {
+pub(crate) fn clip<T: Real>(f: &PlainFrustum<T>, segment: &Segment<T>) -> SegmentClip<T> {
     let (zero, one) = (T::ZERO, T::ONE);
     let (p, d) = (segment.start, segment.end - segment.start);
     let holds = |point, but: Option<Face>| {
@@ -142,7 +143,7 @@ fn clip<T: Real>(f: &PlainFrustum<T>, segment: &Segment<T>) -> SegmentClip<T> {
             continue;
         }
         let t = -a / slope;
-        if t >= zero && t <= one && holds(p + d * t, Some(face)) {
+        if t >= zero && t <= one && holds(d.times_plus(t, p), Some(face)) {
             kept.keep(t, face.into());
         }
     }

@@ -114,7 +114,7 @@ impl<T: Real> SegmentClipper<T> for VwProjection {
 const FAR: u8 = 1 << Face::Far as u8;
 
 /// V/W in plain arithmetic, for a frustum's form.
-struct Plain;
+pub(crate) struct Plain;
 
 impl InFrame for Plain {
     #[inline(always)]

@@ -30,7 +30,7 @@
 //! The comparison is written with `>`, so that NaN and infinity fail it.
 
 use super::precise::Precise;
-use super::{Face, Form, Frustum, General, Layout, Shape};
+use super::{Face, Form, Frustum, General, Layout, Shape, Term};
 use crate::exact::double_double::Dd;
 use crate::exact::expansion::in_safe_range;
 use crate::exact::float::{Lanes, exp2, exponent_above, lowest_bit, two_diff, two_prod};
@@ -141,7 +141,7 @@ impl Filter {
 
     /// The six values in the order of [`Face::ALL`], and S, of points side by side.
     #[inline(always)]
-    pub(crate) fn values_at<L: Layout, F: Lanes>(&self, p: Vec3<F>) -> ([F; 6], F) {
+    pub(crate) fn values_at<L: Layout, F: Lanes + Term>(&self, p: Vec3<F>) -> ([F; 6], F) {
         let all = |v: f64| p.x.all(v);
         let (q, size) = self.frame(p);
         let sigma = all(self.sigma);

@@ -23,7 +23,7 @@ pub use face::{Face, FaceSet, FaceSetIter};
 pub use matrix::{
     ClipSpace, ClipY, DepthRange, Deviation, MatrixFrustum, MatrixLayout, ViewProjection,
 };
-pub(crate) use plain::{Form, General, Layout, Orthographic, PlainFrustum, Symmetric};
+pub(crate) use plain::{Form, General, Layout, Orthographic, PlainFrustum, Symmetric, Term};
 pub use shape::{Direction, EndRect, Shape};
 pub use six_points::SixPoints;
 pub use trapezoid::{Trapezoid, TrapezoidEnd};
@@ -105,9 +105,9 @@ impl Frustum {
         &self.shape
     }
 
-    /// Coefficients for plain arithmetic in `T`.
+    /// Coefficients for plain arithmetic in `T`, which there are for `f32` and `f64`.
     #[inline(always)]
-    pub(crate) fn plain<T: Real>(&self) -> &PlainFrustum<T> {
+    pub(crate) fn plain<T: Real>(&self) -> Option<&PlainFrustum<T>> {
         T::pick(&self.plain)
     }
 

@@ -21,6 +21,7 @@
 use super::{Face, Shape};
 use crate::math::{PerReal, Pose, Real, Vec3};
 use std::ops::{Add, Mul, Sub};
+use wide::f64x2;
 
 /// Which of the cheaper evaluations a frustum allows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -259,8 +260,19 @@ impl PerReal for PlainPair {
 pub(crate) trait Term:
     Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self>
 {
+    /// `self * factor + term`.
+    #[inline(always)]
+    fn product_plus(self, factor: Self, term: Self) -> Self {
+        self * factor + term
+    }
 }
-impl<T: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self>> Term for T {}
+impl<T: Real> Term for T {
+    #[inline(always)]
+    fn product_plus(self, factor: Self, term: Self) -> Self {
+        self.times_plus(factor, term)
+    }
+}
+impl Term for f64x2 {}
 
 /// How the values of two opposite sides are computed: each form of frustum
 /// leaves out what it does not need, and gives the same bits as the general
@@ -283,7 +295,7 @@ impl<const FAR: bool> Layout for Symmetric<FAR> {
     const FAR: bool = FAR;
     #[inline(always)]
     fn sides<T: Term>(bounds: &[T; 4], slopes: &[T; 4], i: usize, w: T, c: T) -> [T; 2] {
-        let u = bounds[i + 1] + slopes[i + 1] * w;
+        let u = slopes[i + 1].product_plus(w, bounds[i + 1]);
         [u + c, u - c]
     }
 }
@@ -292,8 +304,8 @@ impl<const FAR: bool> Layout for General<FAR> {
     const FAR: bool = FAR;
     #[inline(always)]
     fn sides<T: Term>(bounds: &[T; 4], slopes: &[T; 4], i: usize, w: T, c: T) -> [T; 2] {
-        let low = bounds[i] + slopes[i] * w;
-        let high = bounds[i + 1] + slopes[i + 1] * w;
+        let low = slopes[i].product_plus(w, bounds[i]);
+        let high = slopes[i + 1].product_plus(w, bounds[i + 1]);
         [c - low, high - c]
     }
 }

@@ -13,7 +13,7 @@ pub use paper_answers::{PaperFailure, Score, Topology};
 pub use paper_timing::Timing;
 pub use survey::{
     Survey, SurveyAlgorithm, SurveyError, SurveyRow, SurveyTier, SurveyWitness, SurveyWorst,
-    UnknownName,
+    UnknownName, fuses_in_one_instruction,
 };
 pub use verify::{ExactClipper, FamilyRow, Options, Subject, Witness, verify, verify_watched};
 pub use verify_table::VerifyTable;

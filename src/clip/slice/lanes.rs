@@ -1,6 +1,7 @@
 //! Four segments side by side.
 
 use crate::exact::float::{Lanes, Width, split};
+use crate::frustum::Term;
 use crate::math::{Real, Segment, Vec3};
 use fearless_simd::prelude::*;
 use fearless_simd::{Level, f64x4, mask64x4};
@@ -62,6 +63,8 @@ fn fuses<S: Simd>(simd: S) -> bool {
         _ => false,
     }
 }
+
+impl<S: Simd> Term for f64x4<S> {}
 
 impl<S: Simd> Lanes for f64x4<S> {
     #[inline(always)]

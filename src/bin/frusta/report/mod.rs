@@ -1,5 +1,8 @@
 //! `frusta report`: every algorithm on the singular samples, time beside error.
 
+mod machine;
+mod omitted;
+
 use crate::failure::Failure;
 use crate::terminal::{print, progress_bar};
 use clap::Args;
