@@ -82,7 +82,7 @@ impl<T: Real> SegmentClipper<T> for VwProjection {
         counts: &mut StageCounts,
     ) -> Result<SegmentClip<T>, NonFinite> {
         match self.arithmetic {
-            Arithmetic::Plain => plain::run(frustum, segment, plain::in_frame::<Plain, T>),
+            Arithmetic::Plain => clip_plain(frustum, segment),
             Arithmetic::Exact(accuracy) => exact::vw::clip(frustum, segment, accuracy, counts),
         }
     }
@@ -96,18 +96,21 @@ impl<T: Real> SegmentClipper<T> for VwProjection {
     ) -> Result<(), NonFiniteAt> {
         let level = Level::new();
         match self.arithmetic {
-            Arithmetic::Plain => {
-                clips.clear();
-                for s in segments {
-                    clips.push(plain::run(frustum, s, plain::in_frame::<Plain, T>).unwrap());
-                }
-                Ok(())
-            }
+            Arithmetic::Plain => slice::clip_plain(level, frustum, segments, clips),
             Arithmetic::Exact(accuracy) => {
                 slice::clip_exact(level, frustum, segments, accuracy, clips, counts)
             }
         }
     }
+}
+
+/// Clips a segment in plain arithmetic.
+#[inline]
+pub(super) fn clip_plain<T: Real>(
+    frustum: &Frustum,
+    segment: &Segment<T>,
+) -> Result<SegmentClip<T>, NonFinite> {
+    plain::run(frustum, segment, plain::in_frame::<Plain, T>)
 }
 
 /// The far face's bit.

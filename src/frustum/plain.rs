@@ -93,6 +93,9 @@ pub(crate) struct PlainFrustum<T> {
     pub(crate) axes: [Vec3<T>; 3],
     /// The faces' planes in the world; `Far` is unused in an infinite frustum.
     pub(crate) planes: [Plane<T>; 6],
+    /// Where the magnitudes of a segment's coordinates have a sum below this,
+    /// nothing overflows on the way to its clip.
+    pub(crate) limit: T,
 }
 
 /// The nearest finite number of `T`; zero for NaN.
@@ -140,7 +143,7 @@ impl<T: Real> PlainFrustum<T> {
         let planes = Face::ALL.map(|face| {
             plane_in_frame(face, sign, [near.z, far], bounds, slopes).to_world::<T>(pose)
         });
-        Self {
+        let mut plain = Self {
             form: Form::of(shape),
             identity: pose.is_identity(),
             sign: nearest(sign),
@@ -151,7 +154,24 @@ impl<T: Real> PlainFrustum<T> {
             origin: nearest_vec(pose.origin),
             axes: pose.axes.map(nearest_vec),
             planes,
-        }
+            limit: T::ZERO,
+        };
+        plain.limit = plain.find_limit();
+        plain
+    }
+
+    /// A value is at most three products with an axis, one of them times a slope,
+    /// beside constants; differences of two values, and of two points, double it.
+    fn find_limit(&self) -> T {
+        let largest = |numbers: &[T]| numbers.iter().fold(0.0, |m, v| v.to_f64().abs().max(m));
+        let axes = self.axes.map(|a| largest(&a.to_array()));
+        let axis = axes.into_iter().fold(1.0, f64::max);
+        let constants = largest(&[self.near, self.far])
+            .max(largest(&self.bounds))
+            .max(largest(&self.origin.to_array()));
+        let factor = 16.0 * axis * (1.0 + largest(&self.slopes));
+        let limit = nearest::<T>(f64::INFINITY).to_f64() / factor - 4.0 * constants;
+        nearest(limit.max(0.0))
     }
 
     /// Frame coordinates.

@@ -264,7 +264,7 @@ impl<S: Simd, T: Real> Run<'_, S, T> {
             ..
         } = &mut *self.queues;
         let filter = self.chunk.frustum.filter();
-        for (items, count) in crossing.groups() {
+        for (items, count) in crossing.groups::<4>() {
             let group = items.map(|i| &self.chunk.segments[i as usize]);
             let [p, q] = ends(group);
             let (p, q) = (self.quad.points(p), self.quad.points(q));
@@ -286,7 +286,7 @@ impl<S: Simd, T: Real> Run<'_, S, T> {
     #[inline(always)]
     fn construct(&mut self) {
         let filter = self.chunk.frustum.filter();
-        for (items, _) in self.queues.crossed.groups() {
+        for (items, _) in self.queues.crossed.groups::<4>() {
             let items = items.map(Crossed);
             let group = items.map(|c| &self.chunk.segments[c.item()]);
             let clips = construct(self.quad, filter, items, group);

@@ -4,7 +4,7 @@ use crate::exact::float::{Lanes, Width, split};
 use crate::frustum::Term;
 use crate::math::{Real, Segment, Vec3};
 use fearless_simd::prelude::*;
-use fearless_simd::{Level, f64x4, mask64x4};
+use fearless_simd::{Level, f32x8, f64x4, mask64x4};
 
 /// Four numbers, at a vector width.
 #[derive(Clone, Copy)]
@@ -65,6 +65,7 @@ fn fuses<S: Simd>(simd: S) -> bool {
 }
 
 impl<S: Simd> Term for f64x4<S> {}
+impl<S: Simd> Term for f32x8<S> {}
 
 impl<S: Simd> Lanes for f64x4<S> {
     #[inline(always)]

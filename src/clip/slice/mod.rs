@@ -39,9 +39,9 @@ mod points;
 mod queue;
 
 use super::result::{Accuracy, SegmentClip, StageCounts};
-use crate::frustum::{Form, Frustum, General, Symmetric};
-use crate::math::{NonFiniteAt, Real, Segment};
-use fearless_simd::{Level, Simd};
+use crate::frustum::{Form, Frustum, General, PlainFrustum, Symmetric};
+use crate::math::{NonFiniteAt, PerReal, Real, Segment};
+use fearless_simd::{Level, Simd, f32x8, f64x4};
 use queue::{CHUNK, Queues};
 
 /// Runs what is generic over the vector width. On x86 with one of two: more than
@@ -90,6 +90,56 @@ pub(crate) fn clip_exact<T: Real>(
         clips,
         |chunk| at_width!(level, simd => exact_chunk(simd, chunk, accuracy, &mut queues, counts)),
     )
+}
+
+/// Clips by plain V/W. On an error `clips` is empty.
+pub(crate) fn clip_plain<T: Real>(
+    level: Level,
+    frustum: &Frustum,
+    segments: &[Segment<T>],
+    clips: &mut Vec<SegmentClip<T>>,
+) -> Result<(), NonFiniteAt> {
+    let mut queues = Queues::new();
+    let kernel = T::pick(&PlainKernels);
+    in_chunks(frustum, segments, clips, |chunk| {
+        match (kernel, frustum.plain()) {
+            (Some(PlainKernel(kernel)), Some(plain)) => kernel(level, chunk, plain, &mut queues),
+            _ => plain_singly(chunk),
+        }
+    })
+}
+
+/// Clips a chunk in plain arithmetic.
+type PlainRun<T> =
+    fn(Level, Chunk<'_, T>, &PlainFrustum<T>, &mut Queues) -> Result<(), NonFiniteAt>;
+
+struct PlainKernel<T: Real>(PlainRun<T>);
+
+/// The registers for each scalar type.
+struct PlainKernels;
+
+impl PerReal for PlainKernels {
+    type Of<T: Real> = PlainKernel<T>;
+
+    fn single(&self) -> &PlainKernel<f32> {
+        &PlainKernel(
+            |level, chunk, plain, queues| at_width!(level, simd => plain::clip::<_, f32, f32x8<_>, 8>(simd, chunk, plain, queues)),
+        )
+    }
+
+    fn double(&self) -> &PlainKernel<f64> {
+        &PlainKernel(
+            |level, chunk, plain, queues| at_width!(level, simd => plain::clip::<_, f64, f64x4<_>, 4>(simd, chunk, plain, queues)),
+        )
+    }
+}
+
+fn plain_singly<T: Real>(chunk: Chunk<'_, T>) -> Result<(), NonFiniteAt> {
+    for (index, segment) in chunk.segments.iter().enumerate() {
+        chunk.clips[index] = super::vw::clip_plain(chunk.frustum, segment)
+            .map_err(|found| NonFiniteAt { index, found })?;
+    }
+    Ok(())
 }
 
 fn in_chunks<T: Real>(

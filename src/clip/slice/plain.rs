@@ -1,1 +1,326 @@
-//! Plain V/W.
+//! Plain V/W, a register of segments at a time: the steps of `clip/vw.rs` in the
+//! same order. What is rare there goes to the unsure: a value of zero, and
+//! numbers so large that something may overflow.
+
+use super::Chunk;
+use super::queue::{CHUNK, Queues};
+use crate::clip::{Class, Part, PartEnd, SegmentClip, plain, vw};
+use crate::frustum::{FaceSet, Form, General, Layout, PlainFrustum, Symmetric, Term};
+use crate::math::{NonFiniteAt, Real, Segment, Vec3};
+use fearless_simd::prelude::*;
+use std::marker::PhantomData;
+
+/// Clips a chunk, N segments at a time.
+#[inline(always)]
+pub(super) fn clip<S, T, V, const N: usize>(
+    simd: S,
+    chunk: Chunk<'_, T>,
+    frustum: &PlainFrustum<T>,
+    queues: &mut Queues,
+) -> Result<(), NonFiniteAt>
+where
+    S: Simd,
+    T: Real,
+    V: SimdFloat<S, Element = T, Array = [T; N]> + Term,
+{
+    let mut run = Run {
+        simd,
+        chunk,
+        frustum,
+        queues,
+        lanes: PhantomData::<V>,
+    };
+    match frustum.form {
+        Form::Symmetric => run.clip::<Symmetric<true>, N>(),
+        Form::General | Form::Orthographic => run.clip::<General<true>, N>(),
+        Form::InfiniteSymmetric | Form::Infinite => run.clip::<General<false>, N>(),
+    }
+}
+
+/// A chunk on its way.
+struct Run<'a, S, T, V> {
+    simd: S,
+    chunk: Chunk<'a, T>,
+    frustum: &'a PlainFrustum<T>,
+    queues: &'a mut Queues,
+    lanes: PhantomData<V>,
+}
+
+/// Points side by side.
+#[inline(always)]
+fn points<S, T, V, const N: usize>(simd: S, p: [Vec3<T>; N]) -> Vec3<V>
+where
+    S: Simd,
+    T: Real,
+    V: SimdFloat<S, Element = T, Array = [T; N]>,
+{
+    Vec3::new(
+        V::load_array(simd, p.map(|p| p.x)),
+        V::load_array(simd, p.map(|p| p.y)),
+        V::load_array(simd, p.map(|p| p.z)),
+    )
+}
+
+/// The sum of the coordinates' magnitudes.
+#[inline(always)]
+fn size<S: Simd, V: SimdFloat<S>>(p: Vec3<V>) -> V {
+    p.x.abs() + p.y.abs() + p.z.abs()
+}
+
+/// The six values; the far one repeats the near one where there is no far face.
+#[inline(always)]
+fn values<S, T, V, L>(simd: S, f: &PlainFrustum<T>, p: Vec3<V>) -> [V; 6]
+where
+    S: Simd,
+    T: Real,
+    V: SimdFloat<S, Element = T> + Term,
+    L: Layout,
+{
+    let q = if f.identity {
+        p
+    } else {
+        let c = Vec3::new(p.x - f.origin.x, p.y - f.origin.y, p.z - f.origin.z);
+        let [x, y, z] = f.axes;
+        Vec3::new(
+            dot::<S, T, V>(x, c),
+            dot::<S, T, V>(y, c),
+            dot::<S, T, V>(z, c),
+        )
+    };
+    let z = q.z * f.sign;
+    let near = z - f.near;
+    let far = if L::FAR {
+        V::splat(simd, f.far) - z
+    } else {
+        near
+    };
+    let bounds = f.bounds.map(|v| V::splat(simd, v));
+    let slopes = f.slopes.map(|v| V::splat(simd, v));
+    let [left, right] = L::sides(&bounds, &slopes, 0, near, q.x);
+    let [bottom, top] = L::sides(&bounds, &slopes, 2, near, q.y);
+    [near, far, left, right, bottom, top]
+}
+
+#[inline(always)]
+fn dot<S: Simd, T, V: SimdFloat<S, Element = T>>(a: Vec3<T>, c: Vec3<V>) -> V {
+    c.x * a.x + c.y * a.y + c.z * a.z
+}
+
+impl<S, T, V> Run<'_, S, T, V>
+where
+    S: Simd,
+    T: Real,
+    V: Term,
+{
+    #[inline(always)]
+    fn clip<L: Layout, const N: usize>(&mut self) -> Result<(), NonFiniteAt>
+    where
+        V: SimdFloat<S, Element = T, Array = [T; N]>,
+    {
+        self.queues.clear();
+        let (groups, rest) = self.chunk.segments.as_chunks::<N>();
+        for (k, group) in groups.iter().enumerate() {
+            self.triage::<L, N>(group.each_ref(), N * k, N);
+        }
+        if let Some(last) = rest.last() {
+            let group = std::array::from_fn(|j| rest.get(j).unwrap_or(last));
+            self.triage::<L, N>(group, N * groups.len(), rest.len());
+        }
+        self.cross::<L, N>();
+        for &item in self.queues.inside.items() {
+            let index = item as usize;
+            self.chunk.clips[index] = plain::inside(&self.chunk.segments[index]);
+        }
+        self.unsure()
+    }
+
+    /// The first `count` of a group count.
+    #[inline(always)]
+    fn triage<L: Layout, const N: usize>(
+        &mut self,
+        group: [&Segment<T>; N],
+        base: usize,
+        count: usize,
+    ) where
+        V: SimdFloat<S, Element = T, Array = [T; N]>,
+    {
+        let p: Vec3<V> = points(self.simd, group.map(|s| s.start));
+        let q: Vec3<V> = points(self.simd, group.map(|s| s.end));
+        let a = values::<S, T, V, L>(self.simd, self.frustum, p);
+        let b = values::<S, T, V, L>(self.simd, self.frustum, q);
+        let mut greatest = a[0].max(b[0]);
+        let mut least = a[0].min(b[0]);
+        let mut nearest = a[0].abs().min(b[0].abs());
+        for (a, b) in a.into_iter().zip(b).skip(1) {
+            greatest = greatest.min(a.max(b));
+            least = least.min(a.min(b));
+            nearest = nearest.min(a.abs().min(b.abs()));
+        }
+        let covered = (size::<S, V>(p) + size::<S, V>(q)).simd_lt(self.frustum.limit);
+        let outside = greatest.simd_lt(T::ZERO) & covered;
+        let inside = least.simd_gt(T::ZERO) & covered;
+        let certain = nearest.simd_gt(T::ZERO) & covered;
+        let present = u64::MAX >> (64 - count);
+        let crossing = (certain & !outside & !inside).to_bitmask() & present;
+        let unsure = !(certain | outside).to_bitmask() & present;
+        let items = std::array::from_fn::<u32, N, _>(|j| (base + j) as u32);
+        self.queues
+            .inside
+            .append(items, inside.to_bitmask() & present);
+        self.queues.crossing.append(items, crossing);
+        self.queues.unsure.append(items, unsure);
+    }
+
+    /// What has ends on both sides of some faces, and on none.
+    #[inline(always)]
+    fn cross<L: Layout, const N: usize>(&mut self)
+    where
+        V: SimdFloat<S, Element = T, Array = [T; N]>,
+    {
+        let Chunk {
+            segments, clips, ..
+        } = &mut self.chunk;
+        let mut nowhere = plain::outside();
+        for (items, _) in self.queues.crossing.groups::<N>() {
+            let group = items.map(|i| &segments[i as usize % CHUNK]);
+            let p: Vec3<V> = points(self.simd, group.map(|s| s.start));
+            let q: Vec3<V> = points(self.simd, group.map(|s| s.end));
+            let found = crossings::<S, T, V, L, N>(self.simd, self.frustum, p, q);
+            for (j, item) in items.into_iter().enumerate() {
+                let clip = found.clip(j);
+                // A pointer is chosen without a branch. The last group's
+                // repeated items have the same clips.
+                let place = if found.t[0][j] > found.t[1][j] {
+                    &mut nowhere
+                } else {
+                    &mut clips[item as usize]
+                };
+                *place = clip;
+            }
+        }
+    }
+
+    /// One by one.
+    fn unsure(&mut self) -> Result<(), NonFiniteAt> {
+        let Chunk {
+            frustum,
+            segments,
+            clips,
+        } = &mut self.chunk;
+        for &item in self.queues.unsure.items() {
+            let index = item as usize;
+            clips[index] = vw::clip_plain(frustum, &segments[index])
+                .map_err(|found| NonFiniteAt { index, found })?;
+        }
+        Ok(())
+    }
+}
+
+/// Parameters, points and faces of entries and exits.
+struct Crossings<T, const N: usize> {
+    t: [[T; N]; 2],
+    points: [[[T; N]; 3]; 2],
+    clipped: [u64; 2],
+    /// Sets as numbers.
+    faces: [[T; N]; 2],
+}
+
+#[inline(always)]
+fn crossings<S, T, V, L, const N: usize>(
+    simd: S,
+    f: &PlainFrustum<T>,
+    p: Vec3<V>,
+    q: Vec3<V>,
+) -> Crossings<T, N>
+where
+    S: Simd,
+    T: Real,
+    V: SimdFloat<S, Element = T, Array = [T; N]> + Term,
+    L: Layout,
+{
+    let a = values::<S, T, V, L>(simd, f, p);
+    let b = values::<S, T, V, L>(simd, f, q);
+    let (zero, one) = (V::splat(simd, T::ZERO), V::splat(simd, T::ONE));
+    let (before, beyond) = (-one, one + one);
+    let (mut enter, mut leave) = ([before; 6], [beyond; 6]);
+    let (mut t0, mut t1) = (zero, one);
+    let (mut least_a, mut least_b) = (a[0], b[0]);
+    for i in 0..6 {
+        if i == 1 && !L::FAR {
+            continue;
+        }
+        let t = a[i] / (a[i] - b[i]);
+        // A face that is not crossed stands where it changes nothing.
+        enter[i] = a[i].simd_gt(zero).select(before, t);
+        leave[i] = b[i].simd_gt(zero).select(beyond, t);
+        t0 = t0.max(enter[i]);
+        t1 = t1.min(leave[i]);
+        least_a = least_a.min(a[i]);
+        least_b = least_b.min(b[i]);
+    }
+    let clipped = [least_a.simd_lt(zero), least_b.simd_lt(zero)];
+    let (mut entered, mut left) = (zero, zero);
+    let mut bit = one;
+    for i in 0..6 {
+        if L::FAR || i != 1 {
+            entered = entered + enter[i].simd_ge(t0).select(bit, zero);
+            left = left + leave[i].simd_le(t1).select(bit, zero);
+        }
+        bit = bit + bit;
+    }
+    let d = Vec3::new(q.x - p.x, q.y - p.y, q.z - p.z);
+    let first = [
+        clipped[0].select(d.x * t0 + p.x, p.x),
+        clipped[0].select(d.y * t0 + p.y, p.y),
+        clipped[0].select(d.z * t0 + p.z, p.z),
+    ];
+    let last = [
+        clipped[1].select(d.x * t1 + p.x, q.x),
+        clipped[1].select(d.y * t1 + p.y, q.y),
+        clipped[1].select(d.z * t1 + p.z, q.z),
+    ];
+    Crossings {
+        t: [t0.to_array(), t1.to_array()],
+        points: [first.map(|v| v.to_array()), last.map(|v| v.to_array())],
+        clipped: clipped.map(|m| m.to_bitmask()),
+        faces: [entered.to_array(), left.to_array()],
+    }
+}
+
+impl<T: Real, const N: usize> Crossings<T, N> {
+    /// The clip of lane j, if its parameters are in order.
+    #[inline(always)]
+    fn clip(&self, j: usize) -> SegmentClip<T> {
+        let touch = self.t[0][j] == self.t[1][j];
+        let sets = [self.set(0, j), self.set(1, j)];
+        let both = sets[0].union(sets[1]);
+        let [entry, exit] = if touch { [both, both] } else { sets };
+        SegmentClip {
+            class: if touch { Class::Touch } else { Class::Cross },
+            part: Some(Part {
+                entry: self.end(0, j, entry),
+                exit: self.end(1, j, exit),
+                coplanar: FaceSet::EMPTY,
+            }),
+        }
+    }
+
+    #[inline(always)]
+    fn set(&self, end: usize, j: usize) -> FaceSet {
+        // At most 63, exactly.
+        FaceSet::from_bits(self.faces[end][j].to_f64() as u8)
+    }
+
+    #[inline(always)]
+    fn end(&self, end: usize, j: usize, faces: FaceSet) -> PartEnd<T> {
+        let clipped = self.clipped[end] >> j & 1 != 0;
+        let [x, y, z] = &self.points[end];
+        PartEnd {
+            t: self.t[end][j],
+            point: Vec3::new(x[j], y[j], z[j]),
+            clipped,
+            faces,
+            inward: !clipped,
+        }
+    }
+}

@@ -21,9 +21,9 @@ impl Queue {
         }
     }
 
-    /// Appends those of four items whose bit is set.
+    /// Appends those items whose bit is set.
     #[inline(always)]
-    pub(super) fn append(&mut self, items: [u32; 4], bits: u64) {
+    pub(super) fn append<const N: usize>(&mut self, items: [u32; N], bits: u64) {
         for (j, item) in items.into_iter().enumerate() {
             self.items[self.len % ROOM] = item;
             self.len += (bits >> j & 1) as usize;
@@ -35,17 +35,21 @@ impl Queue {
         &self.items[..self.len.min(CHUNK)]
     }
 
-    /// The items in groups of four, the last one filled up with its last item, and
-    /// how many of each group count.
+    /// The items in groups, the last one filled up with its last item, and how many
+    /// of each group count.
     #[inline(always)]
-    pub(super) fn groups(&self) -> impl Iterator<Item = ([u32; 4], usize)> + '_ {
-        self.items().chunks(4).map(|group| match *group {
-            [a, b, c, d] => ([a, b, c, d], 4),
-            [a, b, c] => ([a, b, c, c], 3),
-            [a, b] => ([a, b, b, b], 2),
-            [a, ..] => ([a; 4], 1),
-            [] => ([0; 4], 0),
-        })
+    pub(super) fn groups<const N: usize>(&self) -> impl Iterator<Item = ([u32; N], usize)> + '_ {
+        self.items().chunks(N).map(
+            #[inline(always)]
+            |group| match group.try_into() {
+                Ok(whole) => (whole, N),
+                Err(_) => {
+                    let last = group[group.len() - 1];
+                    let filled = std::array::from_fn(|j| *group.get(j).unwrap_or(&last));
+                    (filled, group.len())
+                }
+            },
+        )
     }
 }
 

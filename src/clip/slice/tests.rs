@@ -62,3 +62,22 @@ fn exact_slices_have_the_bits_of_single_segments() {
         }
     }
 }
+
+fn compare_plain<T: Real>(family: Family, level: Level, blocks: u64) {
+    let clip = |f: &Frustum, s: &[Segment<T>], c: &mut Vec<_>, _: &mut StageCounts| {
+        clip_plain(level, f, s, c).expect("finite");
+    };
+    compare(family, clip, &VwProjection::plain(), blocks);
+}
+
+#[test]
+fn plain_slices_have_the_bits_of_single_segments() {
+    for &family in Family::ALL {
+        for level in levels() {
+            compare_plain::<f64>(family, level, 12);
+            if family.has_f32() {
+                compare_plain::<f32>(family, level, 12);
+            }
+        }
+    }
+}
