@@ -3,7 +3,7 @@
 
 use super::Chunk;
 use super::lanes::{Quad, ends};
-use super::points::construct;
+use super::points::Parts;
 use super::queue::{Crossed, Queues};
 use crate::clip::exact::{self, vw::ROUNDING};
 use crate::clip::{Accuracy, StageCounts};
@@ -289,10 +289,10 @@ impl<S: Simd, T: Real> Run<'_, S, T> {
         for (items, _) in self.queues.crossed.groups::<4>() {
             let items = items.map(Crossed);
             let group = items.map(|c| &self.chunk.segments[c.item()]);
-            let clips = construct(self.quad, filter, items, group);
+            let parts = Parts::new(self.quad, filter, items, group);
             // The last group's repeated items have the same clips.
-            for (item, clip) in items.into_iter().zip(clips) {
-                self.chunk.clips[item.item()] = clip;
+            for (j, item) in items.into_iter().enumerate() {
+                self.chunk.clips[item.item()] = parts.clip(item, j);
             }
         }
     }

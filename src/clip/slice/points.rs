@@ -19,26 +19,39 @@ struct Ends {
     z: [f64; 4],
 }
 
-/// Clips four segments.
-#[inline(always)]
-pub(super) fn construct<S: Simd, T: Real>(
-    quad: Quad<S>,
-    filter: &Filter,
-    crossed: [Crossed; 4],
-    segments: [&Segment<T>; 4],
-) -> [SegmentClip<T>; 4] {
-    let ends = ends(segments);
-    let entries = part_ends::<S, false>(quad, filter, crossed, &ends);
-    let exits = part_ends::<S, true>(quad, filter, crossed, &ends);
-    let clip = |j: usize| SegmentClip {
-        class: Class::Cross,
-        part: Some(Part {
-            entry: assemble::<T, false>(&entries, crossed[j], j),
-            exit: assemble::<T, true>(&exits, crossed[j], j),
-            coplanar: FaceSet::EMPTY,
-        }),
-    };
-    [clip(0), clip(1), clip(2), clip(3)]
+/// Entries and exits of four segments.
+pub(super) struct Parts {
+    entries: Ends,
+    exits: Ends,
+}
+
+impl Parts {
+    #[inline(always)]
+    pub(super) fn new<S: Simd, T: Real>(
+        quad: Quad<S>,
+        filter: &Filter,
+        crossed: [Crossed; 4],
+        segments: [&Segment<T>; 4],
+    ) -> Self {
+        let ends = ends(segments);
+        Parts {
+            entries: part_ends::<S, false>(quad, filter, crossed, &ends),
+            exits: part_ends::<S, true>(quad, filter, crossed, &ends),
+        }
+    }
+
+    /// The clip of segment j.
+    #[inline(always)]
+    pub(super) fn clip<T: Real>(&self, crossed: Crossed, j: usize) -> SegmentClip<T> {
+        SegmentClip {
+            class: Class::Cross,
+            part: Some(Part {
+                entry: assemble::<T, false>(&self.entries, crossed, j),
+                exit: assemble::<T, true>(&self.exits, crossed, j),
+                coplanar: FaceSet::EMPTY,
+            }),
+        }
+    }
 }
 
 #[inline(always)]
