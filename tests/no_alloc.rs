@@ -59,7 +59,7 @@ fn the_counter_counts() {
     assert_eq!(info.count_total, 1);
 }
 
-/// Asserts that clippers allocate nothing.
+/// Asserts that clippers allocate nothing, for segments and for slices.
 #[track_caller]
 fn assert_none<T: Real>(
     clippers: &[Box<dyn SegmentClipper<T>>],
@@ -73,6 +73,12 @@ fn assert_none<T: Real>(
             });
             assert_eq!(info.count_total, 0, "{} on {segment:?}", clipper.name());
         }
+        // In a buffer that was used before.
+        let mut clips = Vec::with_capacity(segments.len());
+        let info = allocation_counter::measure(|| {
+            assert!(clipper.clip_segments(frustum, segments, &mut clips).is_ok());
+        });
+        assert_eq!(info.count_total, 0, "{} on a slice", clipper.name());
     }
 }
 

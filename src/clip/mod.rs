@@ -192,6 +192,37 @@ impl Frustum {
         self.clip_segment_counted(segment, accuracy, &mut StageCounts::default())
     }
 
+    /// The parts of a slice of segments: `clips` is emptied, then holds one clip a
+    /// segment, each the same to the bit as [`Frustum::clip_segment_with`] gives, in
+    /// half the time or less.
+    ///
+    /// ```
+    /// use frusta::{Accuracy, Class, EndRect, Frustum, Pose, Segment, Shape};
+    /// # let near = EndRect::new(1.0, -1.0, 1.0, -1.0, 1.0);
+    /// # let far = EndRect::new(3.0, -3.0, 3.0, -3.0, 3.0);
+    /// # let frustum = Frustum::new(Pose::IDENTITY, Shape::Finite { near, far })?;
+    /// let edges: Vec<Segment<f64>> = (0..1000)
+    ///     .map(|i| Segment::new([0.0, 0.0, 2.0], [0.01 * f64::from(i), 0.0, 2.0]))
+    ///     .collect();
+    /// // Memory that is used again and again.
+    /// let mut clips = Vec::new();
+    /// frustum.clip_segments(&edges, Accuracy::Fast, &mut clips)?;
+    /// let cut = clips.iter().filter(|clip| clip.class == Class::Cross);
+    /// assert_eq!((clips.len(), cut.count()), (1000, 799));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// A coordinate of a segment is infinite or NaN; `clips` is empty then.
+    pub fn clip_segments<T: Real>(
+        &self,
+        segments: &[Segment<T>],
+        accuracy: Accuracy,
+        clips: &mut Vec<SegmentClip<T>>,
+    ) -> Result<(), NonFiniteAt> {
+        VwProjection::exact(accuracy).clip_segments(self, segments, clips)
+    }
+
     /// As [`Frustum::clip_segment_with`], and adds to `counts` which stages of
     /// the predicates were needed.
     ///

@@ -1,0 +1,136 @@
+//! Slices of segments, as a caller sees them. That every clip has the bits of the
+//! segment alone, at every vector width, is tested in `src/clip/slice/tests.rs`.
+
+use frusta::samples::Family;
+use frusta::{
+    Accuracy, Arithmetic, Axis, Class, CohenSutherland, CyrusBeck, End, Frustum, LiangBarsky,
+    LiangBarskyVariant, Segment, SegmentClip, SegmentClipper, SixPlanes, StageCounts, VwProjection,
+};
+
+/// Every algorithm in every arithmetic.
+fn clippers() -> Vec<Box<dyn SegmentClipper<f64>>> {
+    let accuracies = [Accuracy::Fast, Accuracy::Nearest, Accuracy::Inward];
+    let exact = accuracies.map(Arithmetic::Exact);
+    let all = [Arithmetic::Plain].into_iter().chain(exact);
+    all.flat_map(|arithmetic| {
+        let liang_barsky = |variant| LiangBarsky {
+            arithmetic,
+            variant,
+        };
+        let clippers: [Box<dyn SegmentClipper<f64>>; 6] = [
+            Box::new(VwProjection { arithmetic }),
+            Box::new(liang_barsky(LiangBarskyVariant::Textbook)),
+            Box::new(liang_barsky(LiangBarskyVariant::Tuned)),
+            Box::new(CyrusBeck { arithmetic }),
+            Box::new(CohenSutherland { arithmetic }),
+            Box::new(SixPlanes { arithmetic }),
+        ];
+        clippers
+    })
+    .collect()
+}
+
+/// A frustum and some segments of all kinds near it.
+fn scene(family: Family, count: u64) -> (Frustum, Vec<Segment<f64>>) {
+    let scene = family.scene(5, 0);
+    let segments = (0..count).map(|i| family.segment(&scene, 5, i)).collect();
+    (scene.frustum().clone(), segments)
+}
+
+#[test]
+fn every_clipper_clips_slices_of_every_length_as_it_clips_segments() {
+    for family in [Family::Random, Family::HalfLattice, Family::Infinite] {
+        let (frustum, all) = scene(family, 64);
+        for clipper in clippers() {
+            let mut clips = vec![SegmentClip::OUTSIDE; 3];
+            for length in (0..20).chain([63, 64]) {
+                let segments = &all[all.len() - length..];
+                let (mut counts, mut single) = <(StageCounts, StageCounts)>::default();
+                let done =
+                    clipper.clip_segments_counted(&frustum, segments, &mut clips, &mut counts);
+                done.expect("finite");
+                let expected: Vec<_> = segments
+                    .iter()
+                    .map(|s| {
+                        clipper
+                            .clip_segment_counted(&frustum, s, &mut single)
+                            .expect("finite")
+                    })
+                    .collect();
+                assert_eq!(
+                    clips,
+                    expected,
+                    "{} on {length} of {family}",
+                    clipper.name()
+                );
+                assert_eq!(counts, single, "{} on {length} of {family}", clipper.name());
+            }
+        }
+    }
+}
+
+#[test]
+fn a_number_that_is_not_finite_is_named_with_its_place_and_nothing_is_given() {
+    let (frustum, all) = scene(Family::Random, 600);
+    for clipper in clippers() {
+        for (index, later) in [(0, 1), (1, 599), (299, 300), (598, 599)] {
+            for value in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+                let mut segments = all.clone();
+                segments[later].start.x = f64::NAN;
+                segments[index].end.y = value;
+                let mut clips = vec![SegmentClip::OUTSIDE; 3];
+                let error = clipper
+                    .clip_segments(&frustum, &segments, &mut clips)
+                    .unwrap_err();
+                assert!(clips.is_empty());
+                assert_eq!(error.index, index, "{}", clipper.name());
+                assert_eq!(
+                    (error.found.end, error.found.axis),
+                    (Some(End::End), Axis::Y)
+                );
+                let text = format!(
+                    "segment {index}: the segment's end has y = {value}; coordinates must be finite"
+                );
+                assert_eq!(error.to_string(), text);
+            }
+        }
+    }
+}
+
+#[test]
+fn magnitudes_at_which_plain_arithmetic_overflows_are_clipped_alone() {
+    // Beside small ones, so that lanes differ.
+    let (frustum, mut segments) = scene(Family::Random, 64);
+    for (i, segment) in segments.iter_mut().enumerate().filter(|(i, _)| i % 3 == 0) {
+        segment.end = segment.end * [1e300, 1e305, 1e155][i % 9 / 3];
+    }
+    let clipper = VwProjection::plain();
+    let mut clips = Vec::new();
+    clipper
+        .clip_segments(&frustum, &segments, &mut clips)
+        .expect("finite");
+    for (segment, clip) in segments.iter().zip(&clips) {
+        assert_eq!(
+            *clip,
+            clipper.clip_segment(&frustum, segment).expect("finite")
+        );
+    }
+    assert!(clips.iter().any(|clip| clip.class != Class::Outside));
+}
+
+#[test]
+fn a_frustum_clips_slices_exactly() {
+    let (frustum, segments) = scene(Family::Bumps, 64);
+    let mut clips = Vec::new();
+    for accuracy in [Accuracy::Fast, Accuracy::Nearest, Accuracy::Inward] {
+        frustum
+            .clip_segments(&segments, accuracy, &mut clips)
+            .expect("finite");
+        for (segment, clip) in segments.iter().zip(&clips) {
+            let single = frustum
+                .clip_segment_with(segment, accuracy)
+                .expect("finite");
+            assert_eq!(*clip, single);
+        }
+    }
+}
