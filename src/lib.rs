@@ -53,6 +53,7 @@
 pub mod clip;
 mod exact;
 pub mod frustum;
+pub mod guarantees;
 mod interop;
 pub mod math;
 #[cfg(feature = "oracle")]

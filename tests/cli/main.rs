@@ -6,6 +6,7 @@ mod bad_table;
 mod formats;
 mod geo;
 mod hostile;
+mod maps;
 mod meshes;
 mod output;
 mod pictures;

@@ -7,6 +7,7 @@ mod draw;
 mod export;
 mod labels;
 mod list;
+mod map;
 mod sheet;
 mod show;
 
@@ -33,6 +34,7 @@ enum SamplesCommand {
     Show(show::ShowArgs),
     Sheet(sheet::SheetArgs),
     Export(export::ExportArgs),
+    Map(map::MapArgs),
 }
 
 /// Runs the command.
@@ -43,6 +45,7 @@ pub(crate) fn run(args: &SamplesArgs) -> Result<ExitCode, Failure> {
         SamplesCommand::Show(args) => show::run(args),
         SamplesCommand::Sheet(args) => sheet::run(args).map(done),
         SamplesCommand::Export(args) => export::run(args).map(done),
+        SamplesCommand::Map(args) => map::run(args).map(done),
     }
 }
 
@@ -58,6 +61,8 @@ Examples
       all of them on one sheet
   frusta samples export samples
       inputs and exact answers as files, to test any other program
+  frusta samples map edge -o map.png
+      what plain and exact arithmetic say of inputs that differ by ulps
 
 Exit codes:
   0  done
