@@ -1,5 +1,6 @@
 //! Measuring clippers and saying what was found.
 
+mod case_line;
 mod paper;
 mod paper_answers;
 mod paper_table;
@@ -8,6 +9,7 @@ mod survey;
 mod verify;
 mod verify_table;
 
+pub use case_line::{CaseLine, CaseLineError, CaseSegment};
 pub use paper::{PaperRow, PaperTable, Tier, paper_rounds, paper_table, rotated_poses};
 pub use paper_answers::{PaperFailure, Score, Topology};
 pub use paper_timing::Timing;
