@@ -1,6 +1,7 @@
 //! The command `frusta`: one file a subcommand.
 
 mod clip;
+mod draw;
 mod engine;
 mod failure;
 mod frustum_file;

@@ -5,20 +5,23 @@
 //! answers    all answers, each held against the truth
 //! decimal    exact numbers in decimal
 //! text       what is printed, json: for programs
+//! picture/   what is drawn
 //! ```
 
 mod answers;
 mod decimal;
 mod json;
 mod lines;
+mod picture;
 mod text;
 
 use crate::failure::Failure;
+use crate::picture::Theme;
 use crate::terminal::print;
 use answers::Replay;
 use clap::Args;
 use lines::Numbered;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 /// Run witnesses through every algorithm in every tier, beside the exact answer
@@ -34,6 +37,15 @@ pub(crate) struct ReplayArgs {
     /// Only the case of this number, of many
     #[arg(long, value_name = "NUMBER")]
     only: Option<usize>,
+    /// Draw the case: .svg or .png
+    #[arg(short, long, value_name = "FILE", conflicts_with = "out")]
+    output: Option<PathBuf>,
+    /// Draw every case into a new or empty folder, as 1.svg, 2.svg, ...
+    #[arg(long, value_name = "FOLDER")]
+    out: Option<PathBuf>,
+    /// The pictures' colours
+    #[arg(long, default_value = "light")]
+    theme: Theme,
     /// All there is as JSON on the standard output: a list of cases
     #[arg(long)]
     json: bool,
@@ -51,6 +63,13 @@ pub(crate) fn run(args: &ReplayArgs) -> Result<ExitCode, Failure> {
         }
     }
     let alone = cases.len() == 1;
+    if let (Some(file), false) = (&args.output, alone) {
+        let why = "a picture is of one case; choose it with --only, or draw all with --out FOLDER";
+        return Err(Failure::in_file(file, why));
+    }
+    if let Some(folder) = &args.out {
+        make(folder)?;
+    }
     let (mut wrong, mut objects) = (false, Vec::new());
     for Numbered {
         number,
@@ -60,6 +79,11 @@ pub(crate) fn run(args: &ReplayArgs) -> Result<ExitCode, Failure> {
     {
         let replay = Replay::new(case).map_err(Failure::new)?;
         wrong |= replay.exact_is_wrong();
+        let numbered = args.out.as_ref().map(|f| f.join(format!("{number}.svg")));
+        if let Some(file) = args.output.as_ref().or(numbered.as_ref()) {
+            let svg = picture::picture(&replay, &title, args.theme.palette());
+            crate::picture::save(file, &svg)?;
+        }
         if args.json {
             objects.push(json::case(number, &title, &replay));
         } else if alone {
@@ -76,6 +100,26 @@ pub(crate) fn run(args: &ReplayArgs) -> Result<ExitCode, Failure> {
     } else {
         ExitCode::SUCCESS
     })
+}
+
+/// Makes the folder, or sees that nothing is in it.
+fn make(folder: &Path) -> Result<(), Failure> {
+    let fail = |e: std::io::Error| Failure::in_file(folder, e);
+    std::fs::create_dir_all(folder).map_err(fail)?;
+    match std::fs::read_dir(folder).map_err(fail)?.next() {
+        Some(_) => Err(Failure::in_file(folder, "the folder is not empty")),
+        None => Ok(()),
+    }
+}
+
+/// The picture of a case by its line, such as a report has it.
+pub(crate) fn drawn(line: &str, title: &str, theme: Theme) -> Result<String, Failure> {
+    let replay = Replay::new(
+        line.parse()
+            .map_err(|e: frusta::report::CaseLineError| Failure::new(e))?,
+    )
+    .map_err(Failure::new)?;
+    Ok(picture::picture(&replay, title, theme.palette()))
 }
 
 const LEGEND: &str = "\
