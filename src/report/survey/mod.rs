@@ -14,12 +14,14 @@
 //! tally    a row's counts
 //! timing   a family's times
 //! row      what is told
+//! table    the same as text
 //! ```
 
 mod entrant;
 mod fused;
 mod judge;
 mod row;
+mod table;
 mod tally;
 mod timing;
 
@@ -28,6 +30,7 @@ pub use row::{
     Survey, SurveyAlgorithm, SurveyError, SurveyRow, SurveyTier, SurveyWitness, SurveyWorst,
     UnknownName,
 };
+pub use table::SurveyTable;
 
 use super::CaseLine;
 use crate::oracle::Oracle;
@@ -57,14 +60,14 @@ pub struct SurveyOptions {
 }
 
 impl Default for SurveyOptions {
-    /// 1,000 cases of every family, 5 rounds of 256, one thread.
+    /// 1,000 cases of every family, 5 rounds of 512, one thread.
     fn default() -> Self {
         Self {
             families: Family::ALL.to_vec(),
             cases: 1_000,
             seed: 1,
             rounds: 5,
-            timed: 256,
+            timed: 512,
             threads: 1,
         }
     }
