@@ -263,6 +263,3 @@ fn witnesses<'a>(
 
 #[cfg(test)]
 mod tests;
-
-#[cfg(test)]
-mod tests;

@@ -116,9 +116,9 @@ fn by_family(f: &mut fmt::Formatter<'_>, survey: &Survey, families: &[Family]) -
 }
 
 const FAMILIES_COLUMNS_ABOVE: &str =
-    "       plain: wrong      exact:   u*max    ulp   filter   exact          times";
+    "     plain: wrong     exact:   u*max    ulp   filter   exact         times";
 const FAMILIES_COLUMNS: &str =
-    "    V/W     L-B  planes  wrong    Fast Nearest                   L-B ns  plain   exact";
+    "    V/W    L-B planes  wrong    Fast Nearest                  L-B ns plain   exact";
 
 fn family_line(f: &mut fmt::Formatter<'_>, survey: &Survey, family: Family) -> fmt::Result {
     use SurveyAlgorithm::{LiangBarskyTextbook, SixPlanes, Vw};
@@ -135,7 +135,7 @@ fn family_line(f: &mut fmt::Formatter<'_>, survey: &Survey, family: Family) -> f
     let all = |r: &SurveyRow| r.wrong_class + r.wrong_faces + r.refused + r.asymmetric;
     writeln!(
         f,
-        "{family:<18}{:>7}{:>8}{:>8}{:>7}{:>8}{:>8}{:>8}{:>8}{:>8}{:>7}{:>8}",
+        "{family:<18}{:>7}{:>7}{:>7}{:>7}{:>8}{:>8}{:>8}{:>8}{:>8}{:>6}{:>8}",
         text(plain(Vw), &wrong),
         text(plain(LiangBarskyTextbook), &wrong),
         text(plain(SixPlanes), &wrong),
