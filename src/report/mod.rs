@@ -14,8 +14,8 @@ pub use paper::{PaperRow, PaperTable, Tier, paper_rounds, paper_table, rotated_p
 pub use paper_answers::{PaperFailure, Score, Topology};
 pub use paper_timing::Timing;
 pub use survey::{
-    Survey, SurveyAlgorithm, SurveyError, SurveyOptions, SurveyRow, SurveyTable, SurveyTier,
-    SurveyWitness, SurveyWorst, UnknownName, fuses_in_one_instruction, survey,
+    Survey, SurveyAlgorithm, SurveyClipper, SurveyError, SurveyOptions, SurveyRow, SurveyTable,
+    SurveyTier, SurveyWitness, SurveyWorst, UnknownName, fuses_in_one_instruction, survey,
 };
 pub use verify::{ExactClipper, FamilyRow, Options, Subject, Witness, verify, verify_watched};
 pub use verify_table::VerifyTable;

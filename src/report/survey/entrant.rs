@@ -73,7 +73,8 @@ pub(super) struct Entrant {
 }
 
 impl Entrant {
-    fn new(algorithm: SurveyAlgorithm, tier: SurveyTier) -> Self {
+    /// A clipper.
+    pub(super) fn new(algorithm: SurveyAlgorithm, tier: SurveyTier) -> Self {
         let arithmetic = match tier {
             SurveyTier::PlainF32 | SurveyTier::PlainF64 | SurveyTier::FmaF64 => Arithmetic::Plain,
             SurveyTier::ExactFast | SurveyTier::ExactFastF32 => Arithmetic::Exact(Accuracy::Fast),

@@ -8,6 +8,7 @@
 //! the clippers of a family take turns at being timed.
 //!
 //! ```text
+//! clipper  one of them, for who wants it alone
 //! entrant  the clippers, all called the same way
 //! fused    the tier with fused multiply-add
 //! judge    a case: the truth, and what the answers are worth
@@ -17,6 +18,7 @@
 //! table    the same as text
 //! ```
 
+mod clipper;
 mod entrant;
 mod fused;
 mod judge;
@@ -25,6 +27,7 @@ mod table;
 mod tally;
 mod timing;
 
+pub use clipper::SurveyClipper;
 pub use fused::fuses_in_one_instruction;
 pub use row::{
     Survey, SurveyAlgorithm, SurveyError, SurveyRow, SurveyTier, SurveyWitness, SurveyWorst,

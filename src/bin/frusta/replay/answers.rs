@@ -1,9 +1,10 @@
 //! What every algorithm in every tier makes of one case, held against the truth.
 
-use crate::engine::{Accuracy, Algorithm, Arithmetic, Engine};
 use frusta::oracle::{Gauge, Oracle, OracleClip, check_idempotent, check_swapped};
-use frusta::report::{CaseLine, CaseSegment, SurveyAlgorithm, SurveyTier};
-use frusta::{Class, FaceSet, NonFinite, Part, PartEnd, Real, Segment, SegmentClip, StageCounts};
+use frusta::report::{CaseLine, CaseSegment, SurveyAlgorithm, SurveyClipper, SurveyTier};
+use frusta::{
+    Accuracy, Class, FaceSet, NonFinite, Part, PartEnd, Real, Segment, SegmentClip, StageCounts,
+};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// A case, the truth about it, and all answers.
@@ -11,7 +12,6 @@ pub(super) struct Replay {
     pub(super) case: CaseLine,
     /// The segment; singles are doubles, too.
     pub(super) segment: Segment<f64>,
-    pub(super) oracle: Oracle,
     pub(super) truth: OracleClip,
     /// By tier, in each by algorithm.
     pub(super) answers: Vec<Answer>,
@@ -97,13 +97,15 @@ impl Replay {
         let truth = oracle.clip(&segment)?;
         let single = as_single(&segment);
         let answer = |algorithm, tier: SurveyTier| {
+            let clipper = SurveyClipper::new(algorithm, tier, &case.frustum);
             let verdict = if tier.is_single() {
-                let judge = Judge::new(&case, &oracle, &truth, single.as_ref()?);
-                judge.verdict(algorithm, tier)
+                let clip: Clip<'_, f32> = &|s, counts| clipper.clip_f32(s, counts);
+                Judge::new(&oracle, &truth, single.as_ref()?, clip).verdict(tier)
             } else {
-                Judge::new(&case, &oracle, &truth, &segment).verdict(algorithm, tier)
+                let clip: Clip<'_, f64> = &|s, counts| clipper.clip_f64(s, counts);
+                Judge::new(&oracle, &truth, &segment, clip).verdict(tier)
             };
-            verdict.map(|verdict| Answer {
+            Some(Answer {
                 algorithm,
                 tier,
                 verdict,
@@ -118,7 +120,6 @@ impl Replay {
         Ok(Self {
             case,
             segment,
-            oracle,
             truth,
             answers,
             singles,
@@ -152,62 +153,62 @@ fn as_single(segment: &Segment<f64>) -> Option<Segment<f32>> {
     (rounded.to_f64() == *segment).then_some(rounded)
 }
 
-/// What an answer in `T` is held against.
+/// A tier's clipper; `None` if it is of the other scalar type.
+type Clip<'a, T> =
+    &'a dyn Fn(&Segment<T>, &mut StageCounts) -> Option<Result<SegmentClip<T>, NonFinite>>;
+
+/// What an answer in `T` is held against, and who gives it.
 struct Judge<'a, T> {
-    case: &'a CaseLine,
     oracle: &'a Oracle,
     truth: &'a OracleClip,
     segment: &'a Segment<T>,
+    clip: Clip<'a, T>,
 }
 
 impl<'a, T: Real> Judge<'a, T> {
     fn new(
-        case: &'a CaseLine,
         oracle: &'a Oracle,
         truth: &'a OracleClip,
         segment: &'a Segment<T>,
+        clip: Clip<'a, T>,
     ) -> Self {
         Self {
-            case,
             oracle,
             truth,
             segment,
+            clip,
         }
     }
 
-    fn verdict(&self, algorithm: SurveyAlgorithm, tier: SurveyTier) -> Option<Verdict> {
-        let (arithmetic, accuracy) = arithmetic(tier)?;
-        let engine = Engine::<T>::new(named(algorithm), arithmetic, accuracy);
+    fn verdict(&self, tier: SurveyTier) -> Verdict {
         let mut stages = StageCounts::default();
-        let answer = self.attempt(&engine, self.segment, &mut stages);
-        let found = match &answer {
-            Ok(answer) if tier.is_exact() => {
-                let accuracy = accuracy.into();
+        let answer = self.attempt(self.segment, &mut stages);
+        let found = match (&answer, accuracy(tier)) {
+            (Ok(answer), Some(accuracy)) => {
                 self.oracle
                     .check(self.truth, self.segment, accuracy, answer)
             }
             _ => Vec::new(),
         };
-        let again =
-            |segment: &Segment<T>| self.attempt(&engine, segment, &mut StageCounts::default());
+        let again = |segment: &Segment<T>| self.attempt(segment, &mut StageCounts::default());
         let mut verdict = self.judge(answer, again);
         verdict.stages = stages;
         verdict.violations = found.iter().map(ToString::to_string).collect();
-        Some(verdict)
+        verdict
     }
 
     /// A clipper that panics has a bug; the others' answers are wanted all the same.
     fn attempt(
         &self,
-        engine: &Engine<T>,
         segment: &Segment<T>,
         stages: &mut StageCounts,
     ) -> Result<SegmentClip<T>, String> {
-        let clip = AssertUnwindSafe(|| engine.clip(&self.case.frustum, segment, stages));
+        let clip = AssertUnwindSafe(|| (self.clip)(segment, stages));
         match catch_unwind(clip) {
-            Ok(Ok(answer)) if is_finite(&answer) => Ok(answer),
-            Ok(Ok(_)) => Err("a number is not finite".to_owned()),
-            Ok(Err(refusal)) => Err(refusal.to_string()),
+            Ok(Some(Ok(answer))) if is_finite(&answer) => Ok(answer),
+            Ok(Some(Ok(_))) => Err("not finite".to_owned()),
+            Ok(Some(Err(refusal))) => Err(refusal.to_string()),
+            Ok(None) => Err("another type".to_owned()),
             Err(_) => Err("it panicked".to_owned()),
         }
     }
@@ -327,26 +328,13 @@ fn widened<T: Real>(answer: &SegmentClip<T>) -> SegmentClip<f64> {
     }
 }
 
-/// The command's names of a tier's arithmetic; `None` for fused multiply-add.
-fn arithmetic(tier: SurveyTier) -> Option<(Arithmetic, Accuracy)> {
-    let exact = |accuracy| Some((Arithmetic::Exact, accuracy));
+/// What a tier promises of points; `None` for plain arithmetic.
+fn accuracy(tier: SurveyTier) -> Option<Accuracy> {
     match tier {
-        SurveyTier::PlainF32 | SurveyTier::PlainF64 => Some((Arithmetic::Plain, Accuracy::Fast)),
-        SurveyTier::FmaF64 => None,
-        SurveyTier::ExactFast | SurveyTier::ExactFastF32 => exact(Accuracy::Fast),
-        SurveyTier::ExactNearest | SurveyTier::ExactNearestF32 => exact(Accuracy::Nearest),
-        SurveyTier::ExactInward | SurveyTier::ExactInwardF32 => exact(Accuracy::Inward),
-    }
-}
-
-fn named(algorithm: SurveyAlgorithm) -> Algorithm {
-    match algorithm {
-        SurveyAlgorithm::Vw => Algorithm::Vw,
-        SurveyAlgorithm::LiangBarskyTuned => Algorithm::LiangBarsky,
-        SurveyAlgorithm::LiangBarskyTextbook => Algorithm::LiangBarskyTextbook,
-        SurveyAlgorithm::CyrusBeck => Algorithm::CyrusBeck,
-        SurveyAlgorithm::CohenSutherland => Algorithm::CohenSutherland,
-        SurveyAlgorithm::SixPlanes => Algorithm::SixPlanes,
+        SurveyTier::PlainF32 | SurveyTier::PlainF64 | SurveyTier::FmaF64 => None,
+        SurveyTier::ExactFast | SurveyTier::ExactFastF32 => Some(Accuracy::Fast),
+        SurveyTier::ExactNearest | SurveyTier::ExactNearestF32 => Some(Accuracy::Nearest),
+        SurveyTier::ExactInward | SurveyTier::ExactInwardF32 => Some(Accuracy::Inward),
     }
 }
 

@@ -38,12 +38,13 @@ impl Folder {
     }
 
     /// Writes the files, then gives them their names.
-    pub(crate) fn finish(mut self, _page: &Page<'_>, report: &Report<'_>) -> Result<(), Failure> {
+    pub(crate) fn finish(mut self, page: &Page<'_>, report: &Report<'_>) -> Result<(), Failure> {
         self.json.write(report.to_json().as_bytes())?;
         self.rows.write(&self.csv("rows.csv", &report.rows)?)?;
         self.witnesses
             .write(&self.csv("witnesses.csv", &report.witnesses)?)?;
         self.lines.write(lines(&report.witnesses).as_bytes())?;
+        super::page::write(&self.folder, page)?;
         let Self {
             json,
             rows,

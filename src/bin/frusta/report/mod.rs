@@ -6,12 +6,14 @@
 //! files    the folder: report.json, CSV files, witnesses, pages
 //! machine  what it was measured on
 //! omitted  what it lacks
+//! page/    report.html and the panels
 //! ```
 
 mod data;
 mod files;
 mod machine;
 mod omitted;
+mod page;
 
 use crate::failure::{Failure, shorten};
 use crate::terminal::{print, progress_bar};

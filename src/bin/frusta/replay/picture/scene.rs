@@ -166,20 +166,11 @@ fn solid(rims: &[Rim; 2], window: &Window, size: f64, shape: &Shape) -> Solid {
     }
 }
 
-/// The unit in the last place, in `f64`, of the largest coordinate; in the frame's
-/// unit it may be another.
-pub(super) fn least_step(replay: &Replay) -> Exact {
-    let coordinates = [replay.segment.start, replay.segment.end].map(Vec3::to_array);
-    let largest = coordinates
-        .as_flattened()
-        .iter()
-        .fold(0.0_f64, |a, c| a.max(c.abs()));
-    let step = exact(largest.next_up()) - exact(largest);
-    let pose = replay.case.frustum.pose();
-    let axes = pose.axes.map(Vec3::to_array);
-    let longest = axes
-        .as_flattened()
-        .iter()
-        .fold(0.0_f64, |a, c| a.max(c.abs()));
-    step * exact(longest)
+/// The unit in the last place, in `f64`, of a point's largest coordinate.
+pub(super) fn step_at(p: &Point) -> Exact {
+    let near = p.each_ref().map(round_nearest::<f64>);
+    let largest = near.iter().fold(0.0_f64, |a, c| a.max(c.abs()));
+    // A frame's coordinates may be beyond the range of doubles.
+    let above = largest.next_up().min(f64::MAX);
+    exact(above) - exact(above.next_down())
 }

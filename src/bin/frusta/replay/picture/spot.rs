@@ -1,7 +1,7 @@
 //! Where right and wrong answers part, if that is too small for the whole picture.
 
 use super::exact::{Exact, Point, distance, exact, in_frame};
-use super::scene::{Scene, least_step, points};
+use super::scene::{Scene, points, step_at};
 use crate::replay::answers::Replay;
 use num_traits::{Signed, Zero};
 
@@ -18,12 +18,11 @@ pub(super) struct Spot {
 /// being visibly far; else where a segment that is outside was said to be inside; else
 /// a clipped end and its neighbours.
 pub(super) fn find(replay: &Replay, scene: &Scene) -> Option<Spot> {
-    let step = least_step(replay);
     let visible = size(scene) / exact(50.0);
     let all = replay.answers.iter().filter_map(|a| points(replay, a));
     let all: Vec<[Point; 2]> = all.collect();
     let Some(part) = &replay.truth.part else {
-        return claimed(scene, &all, &step);
+        return claimed(scene, &all);
     };
     let pose = replay.case.frustum.pose();
     let ends = [&part.entry, &part.exit].map(|e| in_frame(pose, &e.point));
@@ -42,7 +41,7 @@ pub(super) fn find(replay: &Replay, scene: &Scene) -> Option<Spot> {
         }
     }
     let (off, i) = best?;
-    let half = (off * exact(1.6)).max(step * exact(4.0));
+    let half = (off * exact(1.6)).max(step_at(&ends[i]) * exact(4.0));
     Some(Spot {
         centre: ends[i].clone(),
         half,
@@ -51,7 +50,7 @@ pub(super) fn find(replay: &Replay, scene: &Scene) -> Option<Spot> {
 }
 
 /// Where a segment that is outside was said to be inside.
-fn claimed(scene: &Scene, all: &[[Point; 2]], step: &Exact) -> Option<Spot> {
+fn claimed(scene: &Scene, all: &[[Point; 2]]) -> Option<Spot> {
     let [first, _] = all.first()?;
     let (near, far) = (&scene.rims[0], &scene.rims[1]);
     let depth = &far.z - &near.z;
@@ -71,7 +70,7 @@ fn claimed(scene: &Scene, all: &[[Point; 2]], step: &Exact) -> Option<Spot> {
     off = off.max(spread.unwrap_or_else(Exact::zero));
     (off < size(scene)).then(|| Spot {
         centre: first.clone(),
-        half: (off * exact(1.6)).max(step * exact(4.0)),
+        half: (off * exact(1.6)).max(step_at(first) * exact(4.0)),
         name: "where it was said to be inside",
     })
 }
