@@ -7,7 +7,7 @@
 use super::entrant::{Clips, Prepared, Scalar};
 use super::row::SurveyTier;
 use super::tally::Tally;
-use crate::clip::{PartEnd, SegmentClip, StageCounts};
+use crate::clip::{Part, PartEnd, SegmentClip, StageCounts};
 use crate::math::{NonFinite, Real, Segment, Vec3};
 use crate::oracle::{Gauge, Oracle, OracleClip, OracleEnd, is_mirrored};
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -17,8 +17,13 @@ pub(super) struct Case<'a, T> {
     number: u64,
     segment: Segment<T>,
     frustum: &'a Prepared,
-    oracle: &'a Oracle,
     truth: OracleClip,
+    points: Points<'a>,
+}
+
+/// Points that were given for the ends of a case, and how good they are.
+struct Points<'a> {
+    oracle: &'a Oracle,
     /// The segment's largest coordinate.
     scale: f64,
     gauges: [Option<Gauge>; 2],
@@ -67,11 +72,13 @@ impl<'a, T: Scalar> Case<'a, T> {
             number,
             segment,
             frustum,
-            oracle,
             truth: oracle.clip(&segment)?,
-            scale,
-            gauges: [None; 2],
-            known: Vec::new(),
+            points: Points {
+                oracle,
+                scale,
+                gauges: [None; 2],
+                known: Vec::new(),
+            },
         })
     }
 
@@ -133,13 +140,12 @@ impl<'a, T: Scalar> Case<'a, T> {
         if part.coplanar != exact.coplanar || !ends.into_iter().all(right) {
             row.wrong_faces.add(self.number);
         }
-        let clipped = ends.map(|(is, exact)| is.clipped || exact.clipped);
         let mut outside = false;
-        for (end, is) in [part.entry, part.exit].into_iter().enumerate() {
-            if !clipped[end] {
+        for (end, (is, exact)) in ends.into_iter().enumerate() {
+            if !(is.clipped || exact.clipped) {
                 continue;
             }
-            let error = self.end(end, is.point);
+            let error = self.points.error(end, exact, is.point);
             row.ulp.add(self.number, error.ulp);
             row.u_scale.add(self.number, error.u_scale);
             let promised = !tier.is_inward() || is.inward;
@@ -147,25 +153,23 @@ impl<'a, T: Scalar> Case<'a, T> {
         }
         row.outside += u64::from(outside);
     }
+}
 
+impl Points<'_> {
     /// How far a point is from the exact end, by rational arithmetic if nobody gave
     /// this point before.
-    fn end(&mut self, end: usize, point: Vec3<T>) -> EndError {
+    fn error<T: Real>(&mut self, end: usize, exact: &OracleEnd, point: Vec3<T>) -> EndError {
         let bits = bits(point);
         let found = self.known.iter().find(|k| k.end == end && k.bits == bits);
         if let Some(known) = found {
             return known.error;
         }
-        let error = self.measure(end, point);
+        let error = self.measure(end, exact, point);
         self.known.push(Known { end, bits, error });
         error
     }
 
-    fn measure(&mut self, end: usize, point: Vec3<T>) -> EndError {
-        let Some(part) = &self.truth.part else {
-            unreachable!("only ends of parts that there are get measured");
-        };
-        let exact = [&part.entry, &part.exit][end];
+    fn measure<T: Real>(&mut self, end: usize, exact: &OracleEnd, point: Vec3<T>) -> EndError {
         let gauge = self.gauges[end].get_or_insert_with(|| Gauge::new::<T>(exact));
         // What G3 allows for underflow is no error of u times scale.
         let beyond = (gauge.deviation(point) - T::MIN_SUBNORMAL).max(0.0);
@@ -185,7 +189,7 @@ impl<'a, T: Scalar> Case<'a, T> {
 /// Whether clipping an answer again is asked to change nothing: of all, but for
 /// inward answers that say that an end is not inward.
 fn promises_to_stay<T>(answer: &SegmentClip<T>, tier: SurveyTier) -> bool {
-    let inward = |part: &crate::clip::Part<T>| part.entry.inward && part.exit.inward;
+    let inward = |part: &Part<T>| part.entry.inward && part.exit.inward;
     !tier.is_inward() || answer.part.as_ref().is_some_and(inward)
 }
 
