@@ -7,7 +7,7 @@
 //! is written where the compiler must assume that it is read.
 
 use super::SurveyOptions;
-use super::entrant::{Clips, Entrant, Prepared, Scalar};
+use super::entrant::{AnyClipper, Clips, Entrant, Prepared};
 use crate::clip::StageCounts;
 use crate::math::Segment;
 use crate::report::paper_timing::{median, shuffle};
@@ -68,14 +68,10 @@ impl Cases {
 
     /// Nanoseconds a segment, of one pass.
     fn pass(&self, entrant: &Entrant) -> f64 {
-        let time =
-            AssertUnwindSafe(
-                || match (f32::of(&entrant.clipper), f64::of(&entrant.clipper)) {
-                    (Some(clipper), _) => pass(clipper, &self.frusta, &self.single),
-                    (_, Some(clipper)) => pass(clipper, &self.frusta, &self.double),
-                    (None, None) => 0.0,
-                },
-            );
+        let time = AssertUnwindSafe(|| match &entrant.clipper {
+            AnyClipper::Single(clipper) => pass(clipper.as_ref(), &self.frusta, &self.single),
+            AnyClipper::Double(clipper) => pass(clipper.as_ref(), &self.frusta, &self.double),
+        });
         // Who panics has been counted as refusing; there is no time to tell.
         catch_unwind(time).unwrap_or(0.0)
     }
