@@ -51,7 +51,7 @@ pub(crate) struct ReportArgs {
     /// Only these families, with commas between; frusta verify --list has their names
     #[arg(long, value_name = "NAMES", value_delimiter = ',')]
     families: Vec<Family>,
-    /// Cases of each family in each scalar type [default: 40000, quick: 512]
+    /// Cases of each family in each scalar type [default: 60000, quick: 512]
     #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u64).range(1..=MOST_CASES))]
     cases: Option<u64>,
     /// Which cases
@@ -97,7 +97,7 @@ impl Plan {
         let [cases, rounds, repeats] = if args.quick {
             [512, 3, 2_000]
         } else {
-            [40_000, 61, 100_000]
+            [60_000, 61, 100_000]
         };
         Self {
             survey: SurveyOptions {
