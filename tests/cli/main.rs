@@ -9,6 +9,7 @@ mod hostile;
 mod meshes;
 mod output;
 mod pictures;
+mod replay;
 mod report;
 mod samples;
 mod shell;

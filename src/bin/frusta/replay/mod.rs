@@ -81,7 +81,7 @@ pub(crate) fn run(args: &ReplayArgs) -> Result<ExitCode, Failure> {
         wrong |= replay.exact_is_wrong();
         let numbered = args.out.as_ref().map(|f| f.join(format!("{number}.svg")));
         if let Some(file) = args.output.as_ref().or(numbered.as_ref()) {
-            let svg = picture::picture(&replay, &title, args.theme.palette());
+            let svg = picture::picture(&replay, &title, args.theme.palette(), true);
             crate::picture::save(file, &svg)?;
         }
         if args.json {
@@ -112,14 +112,14 @@ fn make(folder: &Path) -> Result<(), Failure> {
     }
 }
 
-/// The picture of a case by its line, such as a report has it.
+/// The picture of a case by its line, such as a report has it; without that line.
 pub(crate) fn drawn(line: &str, title: &str, theme: Theme) -> Result<String, Failure> {
     let replay = Replay::new(
         line.parse()
             .map_err(|e: frusta::report::CaseLineError| Failure::new(e))?,
     )
     .map_err(Failure::new)?;
-    Ok(picture::picture(&replay, title, theme.palette()))
+    Ok(picture::picture(&replay, title, theme.palette(), false))
 }
 
 const LEGEND: &str = "\

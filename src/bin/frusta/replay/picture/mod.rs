@@ -34,24 +34,38 @@ const SMALL: Place = [
 ];
 /// A spot's picture.
 const SPOT: f64 = 330.0;
-/// The height of a line of small text.
+/// The heights of lines of small and of usual text.
 const LINE: f64 = 18.0;
+const WORDS: f64 = 22.0;
 
-/// The picture of a case.
-pub(super) fn picture(replay: &Replay, title: &str, palette: &'static Palette) -> String {
+/// The picture of a case; with its line below, or without where that stands beside.
+pub(super) fn picture(
+    replay: &Replay,
+    title: &str,
+    palette: &'static Palette,
+    with_line: bool,
+) -> String {
     let scene = Scene::new(replay);
     let spot = spot::find(replay, &scene);
-    let line = wrapped(&replay.case.to_string(), 128);
+    let line = if with_line {
+        wrapped(&replay.case.to_string(), 128)
+    } else {
+        Vec::new()
+    };
+    let said = summary(replay);
     let below = TOP + LARGE[1] + 56.0;
-    let bottom = below + SPOT + 42.0;
-    let height = bottom + 30.0 + LINE * line.len() as f64 + 8.0;
+    let bottom = match &spot {
+        Some(_) => below + SPOT + 42.0,
+        None => below + WORDS * said.len() as f64 + 10.0,
+    };
+    let height = bottom + 26.0 + LINE * line.len() as f64;
     let mut canvas = Canvas::new([WIDTH, height], palette);
     heading(&mut canvas, replay, title);
     whole(&mut canvas, replay, &scene);
     stretched(&mut canvas, &scene);
     match &spot {
         Some(spot) => closely(&mut canvas, replay, &scene, spot, below),
-        None => words(&mut canvas, [MARGIN, below], &summary(replay)),
+        None => words(&mut canvas, [MARGIN, below], &said),
     }
     let entries = Entries {
         feature: false,
@@ -183,7 +197,10 @@ fn stretched(canvas: &mut Canvas, scene: &Scene) {
     let names = ["x", "y", "z"].into_iter().zip(scene.window.stretch());
     let names: Vec<String> = names
         .filter(|(_, s)| *s > 1.01)
-        .map(|(name, s)| format!("{name} {} times", figure(s)))
+        .map(|(name, s)| match s.is_finite() {
+            true => format!("{name} {} times", figure(s)),
+            false => format!("{name} beyond all doubles"),
+        })
         .collect();
     let text = if names.is_empty() {
         "In the frustum's frame, all axes to one scale.".to_owned()
@@ -243,7 +260,7 @@ fn closely(canvas: &mut Canvas, replay: &Replay, scene: &Scene, spot: &Spot, top
 fn words(canvas: &mut Canvas, [x, y]: Place, lines: &[String]) {
     let type_ = font(canvas, 14.0, false);
     for (i, line) in lines.iter().enumerate() {
-        canvas.text([x, y + 22.0 * i as f64], line, type_);
+        canvas.text([x, y + WORDS * i as f64], line, type_);
     }
 }
 

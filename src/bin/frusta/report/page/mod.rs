@@ -18,6 +18,9 @@ mod totals;
 mod words;
 mod worst;
 
+#[cfg(test)]
+mod tests;
+
 use super::Page;
 use crate::failure::Failure;
 use crate::whole_file::WholeFile;

@@ -14,10 +14,12 @@ use super::marks::mark;
 use super::style;
 use super::words::{figure, percent};
 use crate::picture::escaped;
-use frusta::report::{SurveyRow, SurveyTier};
+use frusta::report::{SurveyAlgorithm, SurveyRow, SurveyTier};
 use std::fmt::Write;
 
 const SIZE: [f64; 2] = [640.0, 470.0];
+/// Of the key below a panel that stands alone.
+const KEY_HEIGHT: f64 = 84.0;
 const LEFT: f64 = 76.0;
 const RIGHT: f64 = 16.0;
 /// Where the rail of wrong classes begins and ends.
@@ -28,7 +30,7 @@ const ERRORS: [f64; 2] = [138.0, 372.0];
 const ZERO: [f64; 2] = [380.0, 404.0];
 
 /// The lowest share on the rail of wrong classes.
-const LEAST_SHARE: f64 = 1e-6;
+const LEAST_SHARE: f64 = 1e-5;
 
 /// `Accuracy::Fast` promises this.
 const FAST: f64 = 8.0;
@@ -63,24 +65,48 @@ impl Axes {
 
 /// The panel as it stands in the page.
 pub(super) fn panel(rows: &[&SurveyRow]) -> String {
-    let mut svg = opening();
+    let mut svg = opening(SIZE[1]);
     body(rows, &mut svg);
     svg + "</svg>"
 }
 
 /// The panel as a file.
 pub(super) fn file(rows: &[&SurveyRow]) -> String {
-    let mut svg = opening();
+    let mut svg = opening(SIZE[1] + KEY_HEIGHT);
     let (colours, panels) = (style::COLOURS, style::PANELS);
     // Writing into memory cannot fail.
     let _ = writeln!(svg, "<style>{colours}{panels}</style>");
     svg += "<rect width=\"100%\" height=\"100%\" style=\"fill:var(--paper)\"/>\n";
     body(rows, &mut svg);
+    key(&mut svg);
     svg + "</svg>\n"
 }
 
-fn opening() -> String {
-    let [width, height] = SIZE;
+/// The marks' meaning, below a panel that stands alone.
+fn key(svg: &mut String) {
+    let mut entry = |x: f64, row: f64, algorithm, tier, name: &str| {
+        let y = SIZE[1] + 8.0 + 20.0 * row;
+        svg.push_str(&mark(algorithm, tier, [x, y], 5.0, ""));
+        let _ = writeln!(
+            svg,
+            "<text x=\"{}\" y=\"{}\" font-size=\"12\">{name}</text>",
+            x + 10.0,
+            y + 4.0
+        );
+    };
+    for (i, algorithm) in SurveyAlgorithm::ALL.into_iter().enumerate() {
+        let (x, row) = (24.0 + 200.0 * (i % 3) as f64, (i / 3) as f64);
+        entry(x, row, algorithm, SurveyTier::PlainF64, algorithm.name());
+    }
+    let hollow = (SurveyTier::ExactFastF32, "hollow: in f32");
+    for (i, (tier, name)) in KEY.into_iter().chain([hollow]).enumerate() {
+        let (x, row) = (24.0 + 200.0 * (i % 3) as f64, 2.0 + (i / 3) as f64);
+        entry(x, row, SurveyAlgorithm::Vw, tier, name);
+    }
+}
+
+fn opening(height: f64) -> String {
+    let width = SIZE[0];
     format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"panel\" viewBox=\"0 0 {width} {height}\" \
          role=\"img\">\n"
@@ -135,7 +161,7 @@ fn scales(axes: &Axes, svg: &mut String) {
              <text x=\"{x}\" y=\"{base:.1}\" font-size=\"12\" text-anchor=\"end\">{text}</text>"
         );
     };
-    for share in [1.0, 1e-2, 1e-4, 1e-6] {
+    for share in [1.0, 1e-2, 1e-4] {
         tick(axes.share.place(share), &percent(share));
     }
     for error in axes.error.ticks(7) {
@@ -251,7 +277,8 @@ impl Little {
         let times = rows.iter().map(|row| row.time_ratio).filter(finite);
         let low = times.clone().fold(0.5, f64::min);
         let high = times.fold(5.0, f64::max);
-        let errors = rows.iter().map(|row| row.error_u_scale.max);
+        // What is nearly exact would take most of the axis.
+        let errors = rows.iter().map(|row| row.error_u_scale.max.max(1e-3));
         Self {
             time: Decades::between(low / 1.3, high * 1.3, [4.0, LITTLE[0] - 4.0]),
             error: Decades::around(errors, [0.1, 10.0], [126.0, 56.0]),

@@ -43,12 +43,14 @@ overflow-x:auto;white-space:pre-wrap;overflow-wrap:anywhere}
 .panels{display:grid;grid-template-columns:repeat(auto-fill,minmax(min(100%,500px),1fr));gap:1rem}
 figure{margin:0;background:var(--paper);border:1px solid var(--faint);border-radius:8px;padding:.6rem;\
 min-width:0}
+.cases{display:grid;gap:1rem}.case{display:grid;grid-template-columns:minmax(0,1fr) 19rem;gap:.4rem 1rem}
+@media(max-width:900px){.case{grid-template-columns:minmax(0,1fr)}}
 figure:target{outline:3px solid var(--fast)}
 figcaption{padding:.2rem .4rem .4rem;font-size:.92rem}figcaption code{overflow-wrap:anywhere}
 figure svg,figure img{width:100%;height:auto;display:block}
 .key{display:flex;flex-wrap:wrap;gap:.3rem 1.2rem;margin:.8rem 0;font-size:.95rem}
 .key span{display:inline-flex;align-items:center;gap:.4rem}.key svg{width:18px;height:18px}
-.scroll{overflow-x:auto;background:var(--paper);border:1px solid var(--faint);border-radius:8px}
+.wide svg{min-width:860px}.scroll{overflow-x:auto;background:var(--paper);border:1px solid var(--faint);border-radius:8px}
 table{border-collapse:collapse;font-size:.86rem;font-variant-numeric:tabular-nums;width:100%}
 th,td{padding:.25em .6em;text-align:right;white-space:nowrap;border-bottom:1px solid var(--faint)}
 th{cursor:default;color:var(--soft);font-weight:600}th.sortable{cursor:pointer}

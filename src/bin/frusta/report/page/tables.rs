@@ -29,44 +29,60 @@ fn cell(value: f64) -> Markup {
     html! { td data-v=(value) { (figure(value)) } }
 }
 
+/// The columns of sums.
+const SUMS: [(&str, &str); 12] = [
+    ("tier", "t"),
+    ("answers", ""),
+    ("wrong class", ""),
+    ("wrong faces", ""),
+    ("refused", ""),
+    ("outside", ""),
+    ("swapped differs", ""),
+    ("again differs", ""),
+    ("max u·scale", ""),
+    ("time ratio", ""),
+    ("filter failed", ""),
+    ("exact stage", ""),
+];
+
+/// A sum's cells, in the order of [`SUMS`] without the first.
+fn sums(t: &Total) -> Markup {
+    let share = |n: u64| html! { td data-v=(t.share(n)) { (percent(t.share(n))) } };
+    html! {
+        td data-v=(t.cases) { (count(t.cases)) }
+        (wrong(t.wrong_class, t.cases))
+        (wrong(t.wrong_faces, t.cases))
+        (wrong(t.refused, t.cases))
+        (share(t.outside))
+        (share(t.asymmetric))
+        (share(t.non_idempotent))
+        (cell(t.max_u_scale))
+        (cell(t.time_ratio.unwrap_or(0.0)))
+        (share(t.filter_failures))
+        (share(t.exact_stage))
+    }
+}
+
+/// Over all families and algorithms, a row for each tier.
+pub(super) fn tiers(survey: &Survey) -> Markup {
+    let rows = html! {
+        @for tier in SurveyTier::ALL {
+            @let t = Total::of(survey, |row| row.tier == tier);
+            @if t.cases > 0 { tr { td.t { (tier) } (sums(&t)) } }
+        }
+    };
+    sortable(&SUMS, &rows)
+}
+
 /// Over all families, a row for each algorithm in each tier.
 pub(super) fn totals(survey: &Survey) -> Markup {
-    let heads = [
-        ("algorithm", "t"),
-        ("tier", "t"),
-        ("answers", ""),
-        ("wrong class", ""),
-        ("wrong faces", ""),
-        ("refused", ""),
-        ("outside", ""),
-        ("swapped differs", ""),
-        ("again differs", ""),
-        ("max u·scale", ""),
-        ("time ratio", ""),
-        ("filter failed", ""),
-        ("exact stage", ""),
-    ];
+    let mut heads = vec![("algorithm", "t")];
+    heads.extend(SUMS);
     let rows = html! {
         @for tier in SurveyTier::ALL {
             @for algorithm in SurveyAlgorithm::ALL {
                 @let t = Total::of_clipper(survey, algorithm, tier);
-                @if t.cases > 0 {
-                    tr {
-                        td.t { (algorithm) }
-                        td.t { (tier) }
-                        td data-v=(t.cases) { (count(t.cases)) }
-                        (wrong(t.wrong_class, t.cases))
-                        (wrong(t.wrong_faces, t.cases))
-                        (wrong(t.refused, t.cases))
-                        td data-v=(t.outside) { (percent(t.share(t.outside))) }
-                        td data-v=(t.asymmetric) { (percent(t.share(t.asymmetric))) }
-                        td data-v=(t.non_idempotent) { (percent(t.share(t.non_idempotent))) }
-                        (cell(t.max_u_scale))
-                        (cell(t.time_ratio.unwrap_or(0.0)))
-                        td data-v=(t.filter_failures) { (percent(t.share(t.filter_failures))) }
-                        td data-v=(t.exact_stage) { (percent(t.share(t.exact_stage))) }
-                    }
-                }
+                @if t.cases > 0 { tr { td.t { (algorithm) } td.t { (tier) } (sums(&t)) } }
             }
         }
     };

@@ -172,9 +172,13 @@ fn all_families(page: &Page<'_>) -> Markup {
             "The same axes for all. The grey line across is where " code { "exact-fast" }
             " promises to stay below; the one upwards is the time of textbook Liang-Barsky."
         }
-        figure { div.scroll { (PreEscaped(overview(&page.survey.rows))) } }
+        figure { div.scroll.wide { (PreEscaped(overview(&page.survey.rows))) } }
         h3 { "Totals" }
-        (tables::totals(page.survey))
+        (tables::tiers(page.survey))
+        details {
+            summary { "each algorithm in each tier" }
+            (tables::totals(page.survey))
+        }
         p.soft {
             "Time ratios are geometric means over the families. f32 tiers only run on families that \
              make sense in f32. Errors are of answers whose class is right. Headings sort."
@@ -229,9 +233,9 @@ fn worst_cases(page: &Page<'_>) -> Result<Markup, Failure> {
                 code { "report.json" } "."
             }
         }
-        div.panels {
+        div.cases {
             @for (witness, title, light, dark) in &drawn {
-                figure {
+                figure.case {
                     picture {
                         source media="(prefers-color-scheme: dark)" srcset=(dark);
                         img src=(light) alt=(title) loading="lazy";

@@ -16,10 +16,8 @@ pub(super) struct Total {
     pub(super) filter_failures: u64,
     pub(super) exact_stage: u64,
     pub(super) max_u_scale: f64,
-    pub(super) max_ulp: f64,
     /// The geometric mean over the rows.
     pub(super) time_ratio: Option<f64>,
-    pub(super) nanoseconds: Option<f64>,
 }
 
 impl Total {
@@ -40,9 +38,7 @@ impl Total {
             filter_failures: sum(|row| row.filter_failures),
             exact_stage: sum(|row| row.exact_stage),
             max_u_scale: largest(|row| row.error_u_scale.max),
-            max_ulp: largest(|row| row.error_ulp.max),
             time_ratio: geometric_mean(rows.iter().map(|row| row.time_ratio)),
-            nanoseconds: geometric_mean(rows.iter().map(|row| row.ns_median)),
         }
     }
 
