@@ -215,8 +215,8 @@ fn names(svg: &mut String) {
     );
     let _ = writeln!(
         svg,
-        "<text class=\"soft\" font-size=\"11\" x=\"{}\" y=\"{}\">exact</text>",
-        left + 6.0,
+        "<text class=\"soft\" font-size=\"11\" x=\"{}\" y=\"{}\" text-anchor=\"end\">exact</text>",
+        right - 4.0,
         0.5 * (ZERO[0] + ZERO[1]) + 4.0
     );
 }

@@ -338,7 +338,7 @@ fn bias() -> Markup {
             }
             li {
                 "Singular cases take the exact stages' time, so run times here flatter plain arithmetic. \
-                 They are of one segment a call, through a virtual call; slices are faster."
+                 They are of one segment a call; slices are faster."
             }
             li { "The reference of all ratios, textbook Liang-Barsky, is not the fastest plain algorithm." }
         }
