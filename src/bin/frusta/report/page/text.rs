@@ -11,7 +11,7 @@ use crate::replay;
 use crate::report::Page;
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
-use frusta::report::{SurveyAlgorithm, SurveyTier};
+use frusta::report::{Survey, SurveyAlgorithm, SurveyTier};
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 use serde_json::Value;
 
@@ -52,12 +52,7 @@ pub(super) fn page(page: &Page<'_>) -> Result<String, Failure> {
 /// What was asked, and the answer in four numbers.
 fn headline(page: &Page<'_>) -> Markup {
     let survey = page.survey;
-    let plain = Total::of(survey, |row| !row.tier.is_exact());
-    let exact = Total::of(survey, |row| row.tier.is_exact());
     let families = by_family(&survey.rows).len();
-    let fast = Total::of_clipper(survey, SurveyAlgorithm::Vw, SurveyTier::ExactFast);
-    let same = Total::of_clipper(survey, SurveyAlgorithm::Vw, SurveyTier::PlainF64);
-    let slower = fast.time_ratio.zip(same.time_ratio).map(|(a, b)| a / b);
     html! {
         p.soft { "frusta report" }
         h1 { "What does an exactly right clip of a segment against a view frustum cost?" }
@@ -66,6 +61,19 @@ fn headline(page: &Page<'_>) -> Markup {
             " families of singular, stiff and extreme cases. Every answer was held against rational \
              arithmetic, and every clipper was timed."
         }
+        (numbers(survey))
+        (contents())
+    }
+}
+
+/// How many answers are wrong, and what it costs that none is.
+fn numbers(survey: &Survey) -> Markup {
+    let plain = Total::of(survey, |row| !row.tier.is_exact());
+    let exact = Total::of(survey, |row| row.tier.is_exact());
+    let fast = Total::of_clipper(survey, SurveyAlgorithm::Vw, SurveyTier::ExactFast);
+    let same = Total::of_clipper(survey, SurveyAlgorithm::Vw, SurveyTier::PlainF64);
+    let slower = fast.time_ratio.zip(same.time_ratio).map(|(a, b)| a / b);
+    html! {
         div.numbers {
             div.number {
                 b { (percent(plain.share(plain.wrong()))) }
@@ -108,6 +116,12 @@ fn headline(page: &Page<'_>) -> Markup {
                 }
             }
         }
+    }
+}
+
+/// Links to all that follows.
+fn contents() -> Markup {
+    html! {
         nav {
             @for (id, name) in [
                 ("read", "how to read a panel"), ("overview", "all families"), ("panels", "panels"),

@@ -5,7 +5,7 @@ pub(super) fn figure(value: f64) -> String {
     match value {
         0.0 => "0".to_owned(),
         v if !v.is_finite() => "-".to_owned(),
-        v if v >= 9999.5 || v < 0.000_95 => format!("{v:.1e}"),
+        v if !(0.000_95..9999.5).contains(&v) => format!("{v:.1e}"),
         v if v >= 99.95 => format!("{v:.0}"),
         v if v >= 9.995 => format!("{v:.1}"),
         v if v >= 0.0995 => format!("{v:.2}"),
