@@ -273,20 +273,24 @@ pub fn check_swapped<T: Real>(
     answer: &SegmentClip<T>,
     of_reversed: &SegmentClip<T>,
 ) -> Option<Violation> {
-    let same_part = |a: &Part<T>, b: &Part<T>| {
-        a.coplanar == b.coplanar && mirrored(&a.entry, &b.exit) && mirrored(&a.exit, &b.entry)
-    };
-    let same = answer.class == of_reversed.class
-        && match (&answer.part, &of_reversed.part) {
-            (None, None) => true,
-            (Some(a), Some(b)) => same_part(a, b),
-            _ => false,
-        };
-    (!same).then(|| Violation {
+    (!is_mirrored(answer, of_reversed)).then(|| Violation {
         kind: ViolationKind::Swapped,
         end: None,
         detail: format!("{} against {}", summary(answer), summary(of_reversed)),
     })
+}
+
+/// Whether one answer is the other with entry and exit swapped.
+pub(crate) fn is_mirrored<T: Real>(answer: &SegmentClip<T>, of_reversed: &SegmentClip<T>) -> bool {
+    let same_part = |a: &Part<T>, b: &Part<T>| {
+        a.coplanar == b.coplanar && mirrored(&a.entry, &b.exit) && mirrored(&a.exit, &b.entry)
+    };
+    answer.class == of_reversed.class
+        && match (&answer.part, &of_reversed.part) {
+            (None, None) => true,
+            (Some(a), Some(b)) => same_part(a, b),
+            _ => false,
+        }
 }
 
 /// G6: what is wrong with the answer for the segment between the two points of

@@ -1,5 +1,6 @@
 //! Measuring clippers and saying what was found.
 
+mod case_line;
 mod paper;
 mod paper_answers;
 mod paper_table;
@@ -8,12 +9,13 @@ mod survey;
 mod verify;
 mod verify_table;
 
+pub use case_line::{CaseLine, CaseLineError, CaseSegment};
 pub use paper::{PaperRow, PaperTable, Tier, paper_rounds, paper_table, rotated_poses};
 pub use paper_answers::{PaperFailure, Score, Topology};
 pub use paper_timing::Timing;
 pub use survey::{
-    Survey, SurveyAlgorithm, SurveyError, SurveyRow, SurveyTier, SurveyWitness, SurveyWorst,
-    UnknownName, fuses_in_one_instruction,
+    Survey, SurveyAlgorithm, SurveyClipper, SurveyError, SurveyOptions, SurveyRow, SurveyTable,
+    SurveyTier, SurveyWitness, SurveyWorst, UnknownName, fuses_in_one_instruction, survey,
 };
 pub use verify::{ExactClipper, FamilyRow, Options, Subject, Witness, verify, verify_watched};
 pub use verify_table::VerifyTable;

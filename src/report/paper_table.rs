@@ -100,7 +100,7 @@ fn line(f: &mut fmt::Formatter<'_>, row: &PaperRow) -> fmt::Result {
 }
 
 /// A number in so many columns, with as many of the decimals as fit.
-fn fit(value: f64, decimals: usize, columns: usize) -> String {
+pub(super) fn fit(value: f64, decimals: usize, columns: usize) -> String {
     let decimals = (0..=decimals).rev();
     let texts = decimals.map(|digits| format!("{value:.digits$}"));
     let fitting = texts.into_iter().find(|text| text.len() <= columns);

@@ -136,7 +136,7 @@ fn digest<T: Real>(clip: &SegmentClip<T>) -> u64 {
 }
 
 /// Fisher-Yates.
-fn shuffle<T>(values: &mut [T], random: &mut Random) {
+pub(super) fn shuffle<T>(values: &mut [T], random: &mut Random) {
     for i in (1..values.len()).rev() {
         values.swap(i, random.below(i as u64 + 1) as usize);
     }
@@ -174,7 +174,7 @@ impl Times {
 }
 
 /// The middle one, the greater of two; 0 of none.
-fn median(mut values: Vec<f64>) -> f64 {
+pub(super) fn median(mut values: Vec<f64>) -> f64 {
     values.sort_by(f64::total_cmp);
     values.get(values.len() / 2).copied().unwrap_or_default()
 }

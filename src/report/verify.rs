@@ -7,10 +7,10 @@
 //! depend on the number of threads, and the witness kept is the first by index.
 //! A clipper that refuses a valid case or panics is a finding, not an abort.
 
+use super::CaseLine;
 use crate::clip::{Accuracy, SegmentClip, StageCounts};
 use crate::frustum::Frustum;
-use crate::math::hex::Hex;
-use crate::math::{NonFinite, Real, Segment, Vec3};
+use crate::math::{NonFinite, Real, Segment};
 use crate::oracle::{
     Oracle, OracleClip, Violation, ViolationKind, check_idempotent, check_swapped,
 };
@@ -212,7 +212,7 @@ pub struct Witness {
     pub accuracy: Accuracy,
     /// What was wrong.
     pub violation: Violation,
-    /// Frustum and segment in hexadecimal.
+    /// Frustum and segment: a [`CaseLine`].
     pub input: String,
 }
 
@@ -393,7 +393,7 @@ impl<'a, T: Scalar> Run<'a, T> {
                     index,
                     accuracy,
                     violation,
-                    input: input(self.frustum, segment),
+                    input: CaseLine::new(self.frustum, segment).to_string(),
                 });
             }
         }
@@ -457,28 +457,4 @@ fn refused(detail: String) -> Violation {
         end: None,
         detail,
     }
-}
-
-/// Shape, pose and segment as hexadecimal numbers.
-fn input<T: Real>(frustum: &Frustum, segment: &Segment<T>) -> String {
-    use crate::frustum::{EndRect, Shape};
-    use crate::math::Rect;
-    let rect = |r: Rect| r.to_array().map(|v| Hex(v).to_string()).join(" ");
-    let end = |e: EndRect| format!("{} {}", Hex(e.z), rect(e.rect));
-    let shape = match *frustum.shape() {
-        Shape::Finite { near, far } => format!("near {} far {}", end(near), end(far)),
-        Shape::Infinite {
-            near,
-            slopes,
-            direction,
-        } => format!("near {} slopes {} {direction:?}", end(near), rect(slopes)),
-    };
-    let pose = frustum.pose();
-    let pose = if pose.is_identity() {
-        String::new()
-    } else {
-        let axes = pose.axes.map(|a: Vec3<f64>| Hex(a).to_string()).join(" ");
-        format!(" origin {} axes {axes}", Hex(pose.origin))
-    };
-    format!("{shape}{pose} segment {}", Hex(*segment))
 }

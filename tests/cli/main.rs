@@ -10,6 +10,7 @@ mod maps;
 mod meshes;
 mod output;
 mod pictures;
+mod replay;
 mod report;
 mod samples;
 mod shell;

@@ -1,6 +1,6 @@
 //! `frusta report` and `frusta verify`.
 
-use super::text;
+use super::{Folder, text};
 use serde_json::Value;
 use std::process::{Command, Output};
 
@@ -21,13 +21,108 @@ fn rows(args: &[&str]) -> Vec<Value> {
     rows
 }
 
+/// The flags of a report of a moment: of families with and without f32.
+const SMALL: [&str; 8] = [
+    "--cases",
+    "40",
+    "--rounds",
+    "1",
+    "--repeat",
+    "1",
+    "--families",
+    "thin,subnormal",
+];
+
+/// A report with these flags, of which the exit code is 0.
+fn report(args: &[&str]) -> Output {
+    let run = frusta(&[&["report"], args, &SMALL].concat());
+    assert_eq!(
+        run.status.code(),
+        Some(0),
+        "{args:?}: {}",
+        text(&run.stderr)
+    );
+    assert!(run.stderr.is_empty(), "no progress bar without a terminal");
+    run
+}
+
+fn keys(object: &Value) -> Vec<&str> {
+    object
+        .as_object()
+        .unwrap()
+        .keys()
+        .map(String::as_str)
+        .collect()
+}
+
+/// The keys that docs/report.md promises, in the order of `serde_json`'s maps.
 #[test]
-fn the_report_has_a_row_for_every_algorithm() {
-    let rows = rows(&["report", "--repeat", "3", "--json"]);
+fn the_keys_of_report_json_stay() {
+    let json: Value = serde_json::from_slice(&report(&["--json"]).stdout).unwrap();
+    let documented = std::fs::read_to_string("docs/report.md").unwrap();
+    let promised = |names: &str, object: &Value| {
+        let mut names: Vec<&str> = names.split_whitespace().collect();
+        for name in &names {
+            assert!(documented.contains(&format!("`{name}`")), "{name}");
+        }
+        names.sort_unstable();
+        assert_eq!(keys(object), names);
+    };
+    promised(
+        "schema frusta command machine seconds seed cases rounds rows witnesses paper peers omitted",
+        &json,
+    );
+    promised(
+        "cpu cores os arch rustc simd fused_in_one_instruction",
+        &json["machine"],
+    );
+    promised(
+        "algorithm tier family cases wrong_class wrong_faces refused ns_median time_ratio \
+         max_error_ulp p999_error_ulp max_error_u_scale p999_error_u_scale outside asymmetric \
+         non_idempotent filter_failures exact_stage",
+        &json["rows"][0],
+    );
+    promised(
+        "algorithm tier family worst value case line",
+        &json["witnesses"][0],
+    );
+    promised("what why", &json["omitted"][0]);
+    assert_eq!(json["schema"], "frusta-report/1");
+    let command =
+        "frusta report --cases 40 --seed 1 --rounds 1 --repeat 1 --families subnormal,thin";
+    assert_eq!(json["command"], command);
+    // Six algorithms in nine tiers, in five where there is no f32.
+    assert_eq!(json["rows"].as_array().unwrap().len(), 6 * (9 + 5));
+    assert_eq!(json["rows"][0]["tier"], "plain-f64");
+}
+
+#[test]
+fn a_report_has_no_number_that_is_not_finite() {
+    let json: Value = serde_json::from_slice(&report(&["--json"]).stdout).unwrap();
+    assert_eq!(json["peers"], Value::Null);
+    for row in json["rows"].as_array().unwrap() {
+        for (key, value) in row.as_object().unwrap() {
+            assert!(value.is_number() || value.is_string(), "{key} in {row}");
+        }
+        assert!(row["ns_median"].as_f64() > Some(0.0), "{row}");
+    }
+    for witness in json["witnesses"].as_array().unwrap() {
+        assert!(witness["value"].as_f64() > Some(0.0), "{witness}");
+    }
+}
+
+#[test]
+fn the_papers_table_has_a_row_for_every_algorithm() {
+    let json: Value = serde_json::from_slice(&report(&["--json"]).stdout).unwrap();
+    let rows = json["paper"].as_array().unwrap();
     let (clippers, failures): (Vec<_>, Vec<_>) = rows.iter().partition(|r| r["row"] == "clipper");
     assert_eq!(clippers.len(), 24);
+    for row in rows {
+        let mut values = row.as_object().unwrap().values();
+        assert!(!values.any(|v| v.is_object() || v.is_array()), "{row}");
+    }
     for row in &clippers {
-        assert_eq!(row["repeats"], 3);
+        assert_eq!(row["repeats"], 1);
         assert_eq!(row["standard_samples"], 78);
         if row["tier"] == "exact" {
             for place in ["standard", "stretched", "turned", "rotated"] {
@@ -44,13 +139,108 @@ fn the_report_has_a_row_for_every_algorithm() {
 }
 
 #[test]
-fn the_report_is_a_table_otherwise() {
-    let run = frusta(&["report", "--repeat", "1"]);
-    assert_eq!(run.status.code(), Some(0));
-    assert!(run.stderr.is_empty(), "no progress bar without a terminal");
-    let table = text(&run.stdout);
-    assert!(table.starts_with("The 78 singular samples in the standard frame"));
-    assert!(table.contains("\nf32, exact\nliang-barsky-textbook     -  "));
+fn the_report_is_tables_otherwise() {
+    let tables = text(&report(&[]).stdout);
+    for part in [
+        "2 families of cases, 40 of each",
+        "\nexact-nearest-f32: 40 cases\nvw ",
+        "\nsubnormal ",
+        "\nThe 78 singular samples in the standard frame",
+        "\nf32, exact\nliang-barsky-textbook     -  ",
+        "; to repeat: frusta report --cases 40 ",
+    ] {
+        assert!(tables.contains(part), "{part:?} not in\n{tables}");
+    }
+    let wide = tables.lines().find(|line| line.chars().count() > 100);
+    assert_eq!(wide, None);
+}
+
+/// All counts, errors and witnesses: everything but times.
+fn timeless(mut json: Value) -> Value {
+    for key in ["seconds", "paper"] {
+        json[key] = Value::Null;
+    }
+    for row in json["rows"].as_array_mut().unwrap() {
+        (row["ns_median"], row["time_ratio"]) = (Value::Null, Value::Null);
+    }
+    json
+}
+
+#[test]
+fn threads_do_not_change_what_is_found() {
+    let with = |threads| {
+        let run = report(&["--json", "--threads", threads]);
+        timeless(serde_json::from_slice(&run.stdout).unwrap())
+    };
+    assert_eq!(with("1"), with("3"));
+}
+
+#[test]
+fn a_folder_has_it_all() {
+    let folder = Folder::new();
+    let peers = folder.write("peers.json", r#"{"rows": [{"peer": "other"}]}"#);
+    let out = folder.name("new/folder");
+    let run = report(&["--out", &out, "--peers", &peers]);
+    assert!(text(&run.stdout).ends_with(&format!("written to {out}\n")));
+    let json: Value = serde_json::from_str(&folder.read("new/folder/report.json")).unwrap();
+    assert_eq!(json["peers"]["rows"][0]["peer"], "other");
+    let no_peers = |o: &Value| o["what"] == "other libraries";
+    assert!(!json["omitted"].as_array().unwrap().iter().any(no_peers));
+    for (file, list) in [("rows.csv", "rows"), ("witnesses.csv", "witnesses")] {
+        let content = folder.read(&format!("new/folder/{file}"));
+        let mut lines = content.lines();
+        let mut heading: Vec<&str> = lines.next().unwrap().split(',').collect();
+        heading.sort_unstable();
+        assert_eq!(heading, keys(&json[list][0]));
+        assert_eq!(lines.count(), json[list].as_array().unwrap().len());
+    }
+    // Each witness is there once, as a line that can be replayed.
+    let lines = folder.read("new/folder/witnesses.txt");
+    let mut inputs: Vec<&str> = lines.lines().filter(|l| l.starts_with('f')).collect();
+    let of_json = json["witnesses"].as_array().unwrap().iter();
+    let mut wanted: Vec<&str> = of_json.map(|w| w["line"].as_str().unwrap()).collect();
+    inputs.sort_unstable();
+    wanted.sort_unstable();
+    wanted.dedup();
+    assert_eq!(inputs, wanted);
+    assert!(
+        lines
+            .lines()
+            .all(|l| l.is_empty() || l.starts_with(['#', 'f']))
+    );
+}
+
+#[test]
+fn what_cannot_be_written_or_read_is_told_at_once_and_leaves_nothing() {
+    let folder = Folder::new();
+    folder.write("file", "");
+    let torn = folder.write("torn.json", "{\"rows\": [");
+    std::fs::create_dir_all(folder.path("taken/witnesses.csv")).unwrap();
+    for (args, said) in [
+        (
+            ["--out", &folder.name("file")],
+            "file: cannot be made a folder",
+        ),
+        (
+            ["--out", &folder.name("taken")],
+            "witnesses.csv: cannot be written: it is a folder",
+        ),
+        (["--peers", &folder.name("none")], "none: No such file"),
+        (["--peers", &torn], "torn.json: not JSON: EOF"),
+    ] {
+        // Without --quick it would take minutes.
+        let run = frusta(&[&["report"][..], &args].concat());
+        assert_eq!(run.status.code(), Some(2), "{args:?}");
+        let error = text(&run.stderr);
+        assert!(
+            error.contains(said) && error.lines().count() == 1,
+            "{error}"
+        );
+        assert!(run.stdout.is_empty());
+    }
+    assert_eq!(folder.files(), ["file", "taken", "torn.json"]);
+    let left: Vec<_> = std::fs::read_dir(folder.path("taken")).unwrap().collect();
+    assert_eq!(left.len(), 1);
 }
 
 #[test]
@@ -122,6 +312,12 @@ fn wrong_usage_is_told() {
         (["verify", "--family", "nowhere"], "no family \"nowhere\""),
         (["verify", "--cases", "0"], "0 is not in 1.."),
         (["report", "--repeat", "0"], "0 is not in 1.."),
+        (["report", "--cases", "0"], "0 is not in 1.."),
+        (["report", "--rounds", "0"], "0 is not in 1.."),
+        (
+            ["report", "--families", "thin,nowhere"],
+            "no family \"nowhere\"",
+        ),
         (["verify", "--seed", "x"], "invalid digit"),
     ] {
         let run = frusta(&args);

@@ -1,6 +1,7 @@
 //! The command `frusta`: one file a subcommand.
 
 mod clip;
+mod draw;
 mod engine;
 mod failure;
 mod frustum_file;
@@ -10,6 +11,7 @@ mod number;
 mod output;
 mod picture;
 mod pipeline;
+mod replay;
 mod report;
 mod samples;
 mod shell;
@@ -34,6 +36,7 @@ struct Cli {
 enum Command {
     Clip(Box<clip::ClipArgs>),
     Report(report::ReportArgs),
+    Replay(replay::ReplayArgs),
     Samples(samples::SamplesArgs),
     Verify(verify::VerifyArgs),
     Completions(shell::CompletionsArgs),
@@ -44,7 +47,7 @@ enum Command {
 pub(crate) const EXIT_CODES: &str = "\
 Exit codes:
   0  done
-  1  report, verify, samples show: an exact answer is wrong
+  1  report, replay, verify, samples show: an exact answer is wrong
   2  wrong usage, or a file that cannot be read, makes no sense or cannot be written; one line on
      the error stream names the file, the place in it and the reason, and no output file is left
   130  interrupted; no unfinished output file is left";
@@ -55,7 +58,7 @@ const START: &str = "Start with: frusta clip FILE, frusta samples list, frusta c
 /// The exit code of a failure; `clap` uses the same for wrong usage.
 const FAILED: u8 = 2;
 
-/// The exit code of `report`, `verify` and `samples show` if an exact answer is wrong.
+/// The exit code of `report`, `replay`, `verify` and `samples show` if an exact answer is wrong.
 const WRONG: u8 = 1;
 
 /// How many threads there are to use.
@@ -68,6 +71,7 @@ fn main() -> ExitCode {
     let result = match Cli::parse().command {
         Command::Clip(args) => clip::run(&args).map(|()| ExitCode::SUCCESS),
         Command::Report(args) => report::run(&args),
+        Command::Replay(args) => replay::run(&args),
         Command::Samples(args) => samples::run(&args),
         Command::Verify(args) => verify::run(&args),
         Command::Completions(args) => shell::completions(&args).map(|()| ExitCode::SUCCESS),

@@ -175,3 +175,65 @@ fn clip_as(
         }),
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::clip::{
+        CohenSutherland, CyrusBeck, LiangBarsky, LiangBarskyVariant, SegmentClipper,
+    };
+    use crate::clip::{SixPlanes, VwProjection};
+    use crate::samples::Family;
+
+    #[test]
+    fn a_product_and_its_sum_are_rounded_once() {
+        // (1 + e)^2 = 1 + 2 e + e^2, of which one rounding loses e^2.
+        let x = 1.0 + f64::EPSILON;
+        let minus = -(1.0 + 2.0 * f64::EPSILON);
+        assert_eq!(x.times_plus(x, minus), 0.0);
+        let once = Fused(x).times_plus(Fused(x), Fused(minus));
+        assert_eq!(once, Fused(f64::EPSILON * f64::EPSILON));
+    }
+
+    /// Through the trait, which knows nothing of the machine's level.
+    fn by_trait(algorithm: SurveyAlgorithm) -> Box<dyn SegmentClipper<Fused>> {
+        match algorithm {
+            SurveyAlgorithm::Vw => Box::new(VwProjection::plain()),
+            SurveyAlgorithm::LiangBarskyTuned => {
+                Box::new(LiangBarsky::plain(LiangBarskyVariant::Tuned))
+            }
+            SurveyAlgorithm::LiangBarskyTextbook => {
+                Box::new(LiangBarsky::plain(LiangBarskyVariant::Textbook))
+            }
+            SurveyAlgorithm::CyrusBeck => Box::new(CyrusBeck::plain()),
+            SurveyAlgorithm::CohenSutherland => Box::new(CohenSutherland::plain()),
+            SurveyAlgorithm::SixPlanes => Box::new(SixPlanes::plain()),
+        }
+    }
+
+    #[test]
+    fn the_machines_instructions_give_the_calls_bits_and_other_bits_than_two_roundings() {
+        let fused = |v: Vec3<f64>| Vec3::new(Fused(v.x), Fused(v.y), Fused(v.z));
+        for algorithm in SurveyAlgorithm::ALL {
+            let clipper = FusedClipper::new(algorithm);
+            let (called, twice) = (by_trait(algorithm), LiangBarsky::plain(Default::default()));
+            assert_eq!(called.name(), algorithm.name());
+            let mut others = 0;
+            for family in [Family::FreePose, Family::Huge, Family::Subnormal] {
+                for index in 0..200 {
+                    let (frustum, segment) = family.case(3, index);
+                    let answer = clipper.clip(&frustum, &frustum.plain_scaled(1.0), &segment);
+                    let answer = answer.unwrap();
+                    let wide = Segment::new(fused(segment.start), fused(segment.end));
+                    let other = called.clip_segment(&frustum, &wide).unwrap();
+                    assert_eq!(answer.class, other.class, "{algorithm} {family} {index}");
+                    let points = other.points().map(|ends| ends.map(Vec3::to_f64));
+                    assert_eq!(answer.points(), points, "{algorithm} {family} {index}");
+                    let plain = twice.clip_segment(&frustum, &segment).unwrap();
+                    others += u32::from(plain.points() != answer.points());
+                }
+            }
+            assert!(others > 20, "{algorithm}: {others}");
+        }
+    }
+}

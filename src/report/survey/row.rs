@@ -62,6 +62,11 @@ impl SurveyTier {
         self as usize >= SurveyTier::ExactFast as usize
     }
 
+    /// Whether points are promised to be inside: [`Accuracy::Inward`](crate::Accuracy).
+    pub const fn is_inward(self) -> bool {
+        matches!(self, SurveyTier::ExactInward | SurveyTier::ExactInwardF32)
+    }
+
     /// Whether segments and answers are in `f32`.
     pub const fn is_single(self) -> bool {
         matches!(
@@ -161,7 +166,8 @@ pub struct SurveyRow {
     pub wrong_class: u64,
     /// Cases of the right class with a wrong face set or clipped flag.
     pub wrong_faces: u64,
-    /// Cases that were refused, panicked, or had a number that is not finite.
+    /// Cases that were refused, panicked, or had a number that is not finite, also
+    /// with the ends swapped or clipped again. They are in no other count.
     pub refused: u64,
     /// Nanoseconds a segment: the median over rounds.
     pub ns_median: f64,
@@ -170,19 +176,42 @@ pub struct SurveyRow {
     pub time_ratio: f64,
     /// Errors in units in the last place of the exact coordinate, fractional.
     pub error_ulp: SurveyError,
-    /// Errors in unit roundoffs times the segment's largest coordinate.
+    /// Errors in unit roundoffs times the segment's largest coordinate, after the
+    /// smallest subnormal, which every bound allows for.
     pub error_u_scale: SurveyError,
     /// Cases of the right class with an end that was clipped and is outside of
-    /// the frustum, exactly.
+    /// the frustum, exactly. In inward tiers only ends that are flagged inward count:
+    /// where no representable point near an end is inside, it says so.
     pub outside: u64,
     /// Cases whose answer is not the mirrored one when the ends are swapped.
     pub asymmetric: u64,
-    /// Cases whose answer, clipped again, changes.
+    /// Cases whose answer, clipped again, changes: one of its points, or nothing is
+    /// left. In inward tiers only answers of which both ends are flagged inward.
     pub non_idempotent: u64,
     /// Cases that the floating-point filter did not settle; 0 in plain tiers.
     pub filter_failures: u64,
     /// Cases that needed expansions or integers; 0 in plain tiers.
     pub exact_stage: u64,
+}
+
+impl SurveyRow {
+    /// Whether the row is as an exact tier promises: nothing wrong, refused or
+    /// asymmetric, and all points within the accuracy's bound (G3: `Fast` 8 u times
+    /// scale, `Nearest` half an ulp, `Inward` 2 ulp). Of `Inward` also nothing that is
+    /// outside or changes when it is clipped again, but for ends flagged as not inward,
+    /// which promise only to be nearest.
+    pub fn is_right(&self) -> bool {
+        use SurveyTier as Tier;
+        let wrong = self.wrong_class + self.wrong_faces + self.refused + self.asymmetric;
+        let bound = match self.tier {
+            Tier::ExactNearest | Tier::ExactNearestF32 => self.error_ulp.max <= 0.5,
+            Tier::ExactInward | Tier::ExactInwardF32 => {
+                self.error_ulp.max <= 2.0 && self.outside + self.non_idempotent == 0
+            }
+            _ => self.error_u_scale.max <= 8.0,
+        };
+        wrong == 0 && bound
+    }
 }
 
 /// In which way an input is the worst.
@@ -249,6 +278,27 @@ pub struct Survey {
     pub rows: Vec<SurveyRow>,
     /// For each row the worst inputs, where there are any.
     pub witnesses: Vec<SurveyWitness>,
+}
+
+impl Survey {
+    /// Whether every row of an exact tier [is right](SurveyRow::is_right).
+    pub fn exact_is_right(&self) -> bool {
+        let mut exact = self.rows.iter().filter(|row| row.tier.is_exact());
+        exact.all(SurveyRow::is_right)
+    }
+
+    /// A row, if it was surveyed.
+    pub fn row(
+        &self,
+        algorithm: SurveyAlgorithm,
+        tier: SurveyTier,
+        family: Family,
+    ) -> Option<&SurveyRow> {
+        let names = (algorithm, tier, family);
+        self.rows
+            .iter()
+            .find(|row| (row.algorithm, row.tier, row.family) == names)
+    }
 }
 
 /// A text that names none of the things asked for.

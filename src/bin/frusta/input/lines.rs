@@ -12,10 +12,10 @@ use std::io::{BufRead, Read};
 pub(super) const LONGEST: usize = 1 << 20;
 
 /// Why there is no next line: its number and the reason.
-pub(super) type LineError = (u64, String);
+pub(crate) type LineError = (u64, String);
 
 /// A text's lines, one after the other.
-pub(super) struct Lines<R> {
+pub(crate) struct Lines<R> {
     reader: R,
     line: Vec<u8>,
     number: u64,
@@ -23,7 +23,7 @@ pub(super) struct Lines<R> {
 
 impl<R: BufRead> Lines<R> {
     /// The lines of what is read.
-    pub(super) fn new(reader: R) -> Self {
+    pub(crate) fn new(reader: R) -> Self {
         Self {
             reader,
             line: Vec::new(),
@@ -33,7 +33,7 @@ impl<R: BufRead> Lines<R> {
 
     /// The next line, without the white space at its end, and its number from
     /// 1; `None` at the end.
-    pub(super) fn next(&mut self) -> Result<Option<(u64, &[u8])>, LineError> {
+    pub(crate) fn next(&mut self) -> Result<Option<(u64, &[u8])>, LineError> {
         self.line.clear();
         Ok(self
             .append()?

@@ -19,6 +19,7 @@ mod scene;
 mod stl;
 pub(crate) mod wgs84;
 
+pub(crate) use lines::Lines;
 pub(crate) use opened::{Input, MARK};
 pub(crate) use scene::{Bounds, Scene};
 

@@ -33,6 +33,8 @@ pub(crate) struct Palette {
     pub(crate) classes: [&'static str; 5],
     /// Where a segment was cut.
     pub(crate) cut: &'static str,
+    /// Wrong answers.
+    pub(crate) wrong: &'static str,
     /// Under what a picture is about, as a highlighter does it.
     pub(crate) highlight: &'static str,
 }
@@ -45,6 +47,7 @@ const LIGHT: Palette = Palette {
     faint: "#b9b6ad",
     classes: ["#9a978f", "#b0578d", "#00805d", "#0072b2", "#d55e00"],
     cut: "#8c2d04",
+    wrong: "#c4001d",
     highlight: "#ffd84a",
 };
 
@@ -56,6 +59,7 @@ const DARK: Palette = Palette {
     faint: "#4d525c",
     classes: ["#767b86", "#e29cc5", "#2fc29a", "#56b4e9", "#f0a13a"],
     cut: "#ffe08a",
+    wrong: "#ff6b6b",
     highlight: "#8f6f00",
 };
 

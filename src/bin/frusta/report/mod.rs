@@ -1,105 +1,252 @@
-//! `frusta report`: every algorithm on the singular samples, time beside error.
+//! `frusta report`: error against run time, of every algorithm in every arithmetic
+//! on families of hard cases, and the table of the paper that the method is from.
+//!
+//! ```text
+//! data     what was measured, as it stands in report.json; its keys
+//! files    the folder: report.json, CSV files, witnesses, pages
+//! machine  what it was measured on
+//! omitted  what it lacks
+//! page/    report.html and the panels
+//! ```
 
+mod data;
+mod files;
 mod machine;
 mod omitted;
+mod page;
 
-use crate::failure::Failure;
+use crate::failure::{Failure, shorten};
 use crate::terminal::{print, progress_bar};
 use clap::Args;
-use frusta::math::hex::Hex;
-use frusta::report::{PaperFailure, PaperRow, PaperTable, paper_rounds, paper_table};
-use serde_json::{Value, json};
+use data::Report;
+use files::Folder;
+use frusta::report::{
+    PaperTable, Survey, SurveyOptions, SurveyTable, paper_rounds, paper_table, survey,
+};
+use frusta::samples::Family;
+use machine::Machine;
+use omitted::{Omission, omissions};
+use serde_json::Value;
+use std::fs::File;
+use std::io::Read;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
+use std::time::Instant;
 
-/// Time every algorithm on the 78 singular samples, and check its answers
+/// Measure error against run time, for every algorithm and arithmetic
 ///
-/// Each is measured in plain and in exact arithmetic, in f64 and f32, and compared with rational
-/// arithmetic. The run times stand beside those of the paper that projection reduction is from.
+/// Families of singular, stiff and extreme cases go through every algorithm in plain, fused and
+/// exact arithmetic, in f64 and f32; each answer is held against rational arithmetic. Then all are
+/// timed, in turns. The run times on the 78 singular samples stand beside those of the paper that
+/// projection reduction is from.
 #[derive(Args, Debug)]
-#[command(after_long_help = EXIT_CODES)]
+#[command(after_long_help = NOTES)]
 pub(crate) struct ReportArgs {
-    /// How often each sample is clipped for each time
-    #[arg(long, value_name = "COUNT", default_value = "100000")]
+    /// Fewer cases and rounds: seconds instead of minutes
+    #[arg(long)]
+    quick: bool,
+    /// Write report.json, CSV files, witnesses, panels and report.html to this folder
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Only these families, with commas between; frusta verify --list has their names
+    #[arg(long, value_name = "NAMES", value_delimiter = ',')]
+    families: Vec<Family>,
+    /// Cases of each family in each scalar type [default: 60000, quick: 512]
+    #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u64).range(1..=MOST_CASES))]
+    cases: Option<u64>,
+    /// Which cases
+    #[arg(long, default_value = "1")]
+    seed: u64,
+    /// Rounds in which each clipper is timed once a family [default: 61, quick: 3]
+    #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u32).range(1..=10_000))]
+    rounds: Option<u32>,
+    /// How often each of the 78 samples is clipped for the paper's table
+    /// [default: 100000, quick: 2000]
+    #[arg(long, value_name = "COUNT")]
     #[arg(value_parser = clap::value_parser!(u32).range(1..=100_000_000))]
-    repeat: u32,
-    /// Flat rows as JSON on the standard output: one an algorithm, one a failing sample
+    repeat: Option<u32>,
+    /// Threads that find the errors [default: one a core]; what they find does not depend on it
+    #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u16).range(1..=256))]
+    threads: Option<u16>,
+    /// What the benchmark of other libraries found, to be shown beside: docs/report.md
+    #[arg(long, value_name = "FILE")]
+    peers: Option<PathBuf>,
+    /// report.json on the standard output instead of tables
     #[arg(long)]
     json: bool,
 }
 
+/// Enough for any patience, and no count leaves its type.
+const MOST_CASES: u64 = 1 << 32;
+
+/// The longest file of peers that is read, in bytes.
+const LONGEST: u64 = 1 << 26;
+
+/// How many steps of the survey's a round of the paper's table weighs in the progress
+/// bar.
+const PAPER_ROUND: u64 = 150;
+
+/// What is measured, without what is left to default.
+struct Plan {
+    survey: SurveyOptions,
+    repeats: u32,
+}
+
+impl Plan {
+    fn new(args: &ReportArgs) -> Self {
+        let [cases, rounds, repeats] = if args.quick {
+            [512, 3, 2_000]
+        } else {
+            [60_000, 61, 100_000]
+        };
+        Self {
+            survey: SurveyOptions {
+                families: if args.families.is_empty() {
+                    Family::ALL.to_vec()
+                } else {
+                    distinct(&args.families)
+                },
+                cases: args.cases.unwrap_or(u64::from(cases)),
+                seed: args.seed,
+                rounds: args.rounds.unwrap_or(rounds),
+                threads: args.threads.map_or_else(crate::cores, usize::from),
+                ..SurveyOptions::default()
+            },
+            repeats: args.repeat.unwrap_or(repeats),
+        }
+    }
+
+    /// What to type for the same counts again.
+    fn command(&self) -> String {
+        let SurveyOptions {
+            families,
+            cases,
+            seed,
+            rounds,
+            ..
+        } = &self.survey;
+        let repeats = self.repeats;
+        let mut command = format!(
+            "frusta report --cases {cases} --seed {seed} --rounds {rounds} --repeat {repeats}"
+        );
+        if families.len() < Family::ALL.len() {
+            let names: Vec<&str> = families.iter().map(|f| f.name()).collect();
+            command += &format!(" --families {}", names.join(","));
+        }
+        command
+    }
+
+    fn measure(&self) -> (Survey, PaperTable) {
+        let steps = self.survey.steps() + PAPER_ROUND * paper_rounds(self.repeats);
+        let bar = progress_bar(steps);
+        let survey = survey(&self.survey, &|steps| bar.inc(steps));
+        let paper = paper_table(self.repeats, || bar.inc(PAPER_ROUND));
+        bar.finish_and_clear();
+        (survey, paper)
+    }
+}
+
+/// In the order of tables, each once.
+fn distinct(families: &[Family]) -> Vec<Family> {
+    let all = Family::ALL.iter().copied();
+    all.filter(|family| families.contains(family)).collect()
+}
+
+/// Everything that a report says.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Page<'a> {
+    /// Error against time.
+    pub(crate) survey: &'a Survey,
+    /// The paper's table.
+    pub(crate) paper: &'a PaperTable,
+    /// What it was measured on.
+    pub(crate) machine: &'a Machine,
+    /// Other libraries' results.
+    pub(crate) peers: Option<&'a Value>,
+    /// What to type for the same counts again.
+    pub(crate) command: &'a str,
+    /// How long it took to measure.
+    pub(crate) seconds: f64,
+    /// What is not there.
+    pub(crate) omitted: &'a [Omission],
+}
+
 /// Runs the command.
 pub(crate) fn run(args: &ReportArgs) -> Result<ExitCode, Failure> {
-    let bar = progress_bar(paper_rounds(args.repeat));
-    let table = paper_table(args.repeat, || bar.inc(1));
-    bar.finish_and_clear();
+    // What can fail does so before minutes have passed.
+    let peers = args.peers.as_deref().map(read_peers).transpose()?;
+    let folder = args.out.as_deref().map(Folder::begin).transpose()?;
+    let plan = Plan::new(args);
+    let start = Instant::now();
+    let (survey, paper) = plan.measure();
+    let page = Page {
+        survey: &survey,
+        paper: &paper,
+        machine: &Machine::this(),
+        peers: peers.as_ref(),
+        command: &plan.command(),
+        seconds: start.elapsed().as_secs_f64(),
+        omitted: &omissions(&survey, peers.is_some()),
+    };
+    let report = Report::new(&page);
+    if let Some(folder) = folder {
+        folder.finish(&page, &report)?;
+    }
     print(&if args.json {
-        format!("{:#}\n", to_json(&table))
+        report.to_json()
     } else {
-        table.to_string()
+        tables(&page, args.out.as_deref())
     })?;
-    Ok(if table.exact_is_right() {
+    Ok(if survey.exact_is_right() && paper.exact_is_right() {
         ExitCode::SUCCESS
     } else {
         ExitCode::from(crate::WRONG)
     })
 }
 
-fn to_json(table: &PaperTable) -> Value {
-    let clippers = table.rows.iter().map(|row| clipper(table, row));
-    let failures = table.rows.iter().flat_map(|row| {
-        let failure = |found| failure(row, found);
-        row.failures.iter().map(failure)
-    });
-    clippers.chain(failures).collect()
-}
-
-/// A row with nothing nested in it.
-fn clipper(table: &PaperTable, row: &PaperRow) -> Value {
-    let mut object = json!({
-        "row": "clipper",
-        "algorithm": row.algorithm,
-        "tier": row.tier.name(),
-        "scalar": row.scalar,
-        "repeats": table.repeats,
-        "rounds": table.rounds,
-        "paper_ratio": row.paper,
-        "ratio_in_order": row.in_order.ratio,
-        "ratio_shuffled": row.shuffled.ratio,
-        "ns_in_order": row.in_order.nanoseconds,
-        "ns_shuffled": row.shuffled.nanoseconds,
-        "steady": row.steady,
-    });
-    let places = ["standard", "stretched", "turned", "rotated"];
-    for (place, score) in places.into_iter().zip(row.scores()) {
-        for (name, value) in [
-            ("samples", json!(score.samples)),
-            ("right_classes", json!(score.right_classes)),
-            ("right_sets", json!(score.right_sets)),
-            ("max_error_roundoffs", json!(score.max_error)),
-            ("max_error_ulp", json!(score.max_error_ulps)),
-        ] {
-            object[format!("{place}_{name}")] = value;
-        }
+fn tables(page: &Page<'_>, out: Option<&Path>) -> String {
+    let Machine {
+        cpu,
+        cores,
+        os,
+        arch,
+        rustc,
+        simd,
+        ..
+    } = page.machine;
+    let (survey, paper) = (SurveyTable(page.survey), page.paper);
+    let mut text = format!("{survey}\n{paper}");
+    text += &format!("\n{cpu}, {cores} cores, {os} {arch}, {simd}; Rust {rustc}");
+    text += &format!("\n{:.0} s; to repeat: {}\n", page.seconds, page.command);
+    if let Some(out) = out {
+        text += &format!("written to {}\n", out.display());
     }
-    object
+    text
 }
 
-fn failure(row: &PaperRow, failure: &PaperFailure) -> Value {
-    json!({
-        "row": "failure",
-        "algorithm": row.algorithm,
-        "tier": row.tier.name(),
-        "scalar": row.scalar,
-        "sample": failure.sample,
-        "count": failure.count,
-        "segment": Hex(failure.segment).to_string(),
-        "said": failure.said.to_string(),
-        "true": failure.truth.to_string(),
-    })
+fn read_peers(file: &Path) -> Result<Value, Failure> {
+    let mut text = Vec::new();
+    let read = File::open(file).and_then(|f| f.take(LONGEST + 1).read_to_end(&mut text));
+    read.map_err(|e| Failure::in_file(file, e))?;
+    if text.len() as u64 > LONGEST {
+        let why = format!("it is longer than {LONGEST} bytes; are these results of peers?");
+        return Err(Failure::in_file(file, why));
+    }
+    serde_json::from_slice(&text)
+        .map_err(|e| Failure::in_file(file, format_args!("not JSON: {}", shorten(e))))
 }
 
-const EXIT_CODES: &str = "\
+const NOTES: &str = "\
+Algorithms: vw, liang-barsky-tuned, liang-barsky-textbook, cyrus-beck, cohen-sutherland, six-planes
+Tiers: plain-f32, plain-f64, fma-f64 (with fused multiply-add), exact-fast, exact-nearest,
+  exact-inward, and these three with -f32
+
+Examples
+  frusta report --quick --out report
+      all of it in seconds, to look at: report/report.html
+  frusta report --families shear,thin --cases 100000 --json
+
 Exit codes:
   0  every answer of the exact arithmetic is right
   1  one is wrong
-  2  wrong usage, or the output could not be written";
+  2  wrong usage, or an output could not be written";

@@ -5,6 +5,7 @@
 //! and that a double equals it is checked and not assumed.
 
 use super::labels;
+use crate::draw::Subject;
 use crate::failure::Failure;
 use crate::number::short;
 use frusta::math::hex;
@@ -40,6 +41,17 @@ impl Case {
             segment,
             expected: SegmentClip { class, part },
         })
+    }
+
+    /// What a drawing of it shows.
+    pub(super) fn subject<'a>(&'a self, solid: &'a Solid) -> Subject<'a> {
+        Subject {
+            solid,
+            feature: Some(self.sample.feature),
+            segment: self.segment,
+            clip: &self.expected,
+            shown: [0.0, 1.0],
+        }
     }
 
     /// Everything about it, in one flat object.

@@ -1,11 +1,9 @@
 //! One sample, large: the frustum, both trapezoids, the parameters, the words.
 
-use super::camera::Camera;
-use super::canvas::{Canvas, Pen, Place, Type};
-use super::legend;
-use super::planar::{self, Frame, Plane};
-use super::spatial;
-use super::strand::Sizes;
+use crate::draw::{
+    Camera, Canvas, Entries, Frame, Pen, Place, Plane, Sizes, Type, all_corners, class_colour,
+    draw_legend, draw_planar, draw_spatial,
+};
 use crate::number::short;
 use crate::picture::Palette;
 use crate::picture::wrapped;
@@ -13,7 +11,7 @@ use crate::samples::case::{Case, sets};
 use crate::samples::labels;
 use crate::samples::show::intervals;
 use frusta::samples::Solid;
-use frusta::{Class, Frustum, Interval};
+use frusta::{Frustum, Interval};
 
 const WIDTH: f64 = 1180.0;
 const HEIGHT: f64 = 850.0;
@@ -35,12 +33,12 @@ pub(in crate::samples) fn page(
 ) -> String {
     let mut canvas = Canvas::new([WIDTH, HEIGHT], palette);
     heading(&mut canvas, solid, case);
-    let mut fit = spatial::all_corners(solid);
+    let mut fit = all_corners(solid);
     fit.extend([case.segment.start, case.segment.end]);
     canvas.paper([MARGIN, TOP], LARGE);
     canvas.inside([MARGIN, TOP], LARGE, |canvas| {
         let camera = Camera::new(solid, &fit, LARGE, 34.0);
-        spatial::draw(canvas, &camera, solid, case, Sizes::LARGE);
+        draw_spatial(canvas, &camera, &case.subject(solid), Sizes::LARGE);
     });
     let left = 2.0 * MARGIN + LARGE[0];
     let frames = Frame::both(solid, &fit, SMALL, 30.0);
@@ -48,14 +46,22 @@ pub(in crate::samples) fn page(
         let corner = [left + i as f64 * (SMALL[0] + GAP), TOP];
         canvas.paper(corner, SMALL);
         canvas.inside(corner, SMALL, |canvas| {
-            planar::draw(canvas, frames[i], solid, case, Sizes::LARGE);
+            draw_planar(canvas, frames[i], &case.subject(solid), Sizes::LARGE);
             name_axes(canvas, plane, solid);
         });
     }
     let below = TOP + LARGE[1] + 34.0;
     parameters(&mut canvas, frustum, case, below);
     words(&mut canvas, case, below + 96.0);
-    legend::draw(&mut canvas, [MARGIN, HEIGHT - 24.0], 13.0, false);
+    draw_legend(
+        &mut canvas,
+        [MARGIN, HEIGHT - 24.0],
+        13.0,
+        Entries {
+            feature: true,
+            classes: false,
+        },
+    );
     canvas.finish()
 }
 
@@ -80,14 +86,6 @@ fn heading(canvas: &mut Canvas, solid: &Solid, case: &Case) {
     let plain = font(canvas, 15.0, false);
     let line = format!("solid {}: {}", solid.name, labels::phrase(&case.sample));
     canvas.text([MARGIN, 74.0], &line, plain);
-}
-
-/// The colour of a class's name; grey is too faint for text.
-pub(super) fn class_colour(palette: &Palette, class: Class) -> &'static str {
-    match class {
-        Class::Outside => palette.ink,
-        _ => palette.classes[class as usize],
-    }
 }
 
 fn name_axes(canvas: &mut Canvas, plane: Plane, solid: &Solid) {

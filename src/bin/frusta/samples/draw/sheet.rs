@@ -1,12 +1,9 @@
 //! All samples, small: two features a row, each with its relations.
 
-use super::camera::Camera;
-use super::canvas::{Canvas, Place, Type};
-use super::legend;
-use super::page::class_colour;
-use super::planar::{self, Frame, Plane};
-use super::spatial;
-use super::strand::Sizes;
+use crate::draw::{
+    Camera, Canvas, Entries, Frame, Place, Plane, Sizes, Type, all_corners, class_colour,
+    draw_legend, draw_planar, draw_spatial,
+};
 use crate::number::short;
 use crate::picture::Palette;
 use crate::samples::case::Case;
@@ -52,7 +49,7 @@ pub(in crate::samples) fn sheet(
     let width = 2.0 * (MARGIN + step - GAP) + APART;
     let mut canvas = Canvas::new([width, height], palette);
     header(&mut canvas, solid, cases.len());
-    let corners = spatial::all_corners(solid);
+    let corners = all_corners(solid);
     let common = Views::new(solid, &corners);
     let mut top = HEADER;
     for (name, features) in groups {
@@ -109,12 +106,12 @@ fn cell(canvas: &mut Canvas, views: &Views, solid: &Solid, case: &Case, [left, t
     canvas.paper([left, top], CELL);
     canvas.text([left + 8.0, top + 18.0], &case.sample.name(), name);
     canvas.inside([left, top + TEXT], SPATIAL, |canvas| {
-        spatial::draw(canvas, &views.camera, solid, case, Sizes::SMALL);
+        draw_spatial(canvas, &views.camera, &case.subject(solid), Sizes::SMALL);
     });
     for (i, plane) in [Plane::V, Plane::W].into_iter().enumerate() {
         let corner = [left + SPATIAL[0] + i as f64 * PLANAR[0], top + TEXT];
         canvas.inside(corner, PLANAR, |canvas| {
-            planar::draw(canvas, views.frames[i], solid, case, Sizes::SMALL);
+            draw_planar(canvas, views.frames[i], &case.subject(solid), Sizes::SMALL);
             canvas.text([4.0, 14.0], plane.name(), font(palette, 11.0, false));
         });
     }
@@ -140,5 +137,13 @@ fn header(canvas: &mut Canvas, solid: &Solid, count: usize) {
     let palette = canvas.palette;
     let title = format!("The {count} samples of the solid {}", solid.name);
     canvas.text([MARGIN, 46.0], &title, font(palette, 28.0, true));
-    legend::draw(canvas, [MARGIN, 84.0], 16.0, true);
+    draw_legend(
+        canvas,
+        [MARGIN, 84.0],
+        16.0,
+        Entries {
+            feature: true,
+            classes: true,
+        },
+    );
 }

@@ -1,16 +1,16 @@
 //! A trapezoid, TV or TW, with the projections of a feature and a segment.
 //! Depth grows to the right, the other coordinate upwards.
 
+use super::Subject;
 use super::canvas::{Canvas, Pen, Place};
 use super::spatial::{all_corners, corners};
 use super::strand::{self, Sizes};
-use crate::samples::case::Case;
 use frusta::samples::Solid;
 use frusta::{Segment, Vec3};
 
 /// Which of the two.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Plane {
+pub(crate) enum Plane {
     /// Frame x over z: TV.
     V,
     /// Frame y over z: TW.
@@ -19,19 +19,19 @@ pub(super) enum Plane {
 
 impl Plane {
     /// Its trapezoid's name.
-    pub(super) fn name(self) -> &'static str {
+    pub(crate) fn name(self) -> &'static str {
         ["TV", "TW"][self as usize]
     }
 
     /// Which coordinate it keeps beside z.
-    pub(super) fn across(self) -> &'static str {
+    pub(crate) fn across(self) -> &'static str {
         ["x", "y"][self as usize]
     }
 }
 
 /// From the frame to a picture of a plane.
 #[derive(Clone, Copy)]
-pub(super) struct Frame {
+pub(crate) struct Frame {
     plane: Plane,
     sign: f64,
     scale: f64,
@@ -43,7 +43,7 @@ pub(super) struct Frame {
 impl Frame {
     /// Frames of one scale for both planes, so that these points fill pictures
     /// of this size, but for a margin.
-    pub(super) fn both(solid: &Solid, fit: &[Vec3<f64>], size: Place, margin: f64) -> [Self; 2] {
+    pub(crate) fn both(solid: &Solid, fit: &[Vec3<f64>], size: Place, margin: f64) -> [Self; 2] {
         let mut scale = f64::INFINITY;
         let frames = [Plane::V, Plane::W].map(|plane| {
             let mut frame = Self {
@@ -70,7 +70,8 @@ impl Frame {
         [self.sign * p.z, -across]
     }
 
-    fn place(&self, p: Vec3<f64>) -> Place {
+    /// Where a point is in the picture.
+    pub(crate) fn place(&self, p: Vec3<f64>) -> Place {
         let at = self.coordinates(p);
         let place = |k: usize| self.offset[k] + (at[k] - self.middle[k]) * self.scale;
         [place(0), place(1)]
@@ -78,13 +79,16 @@ impl Frame {
 }
 
 /// The trapezoid and the projections.
-pub(super) fn draw(canvas: &mut Canvas, frame: Frame, solid: &Solid, case: &Case, sizes: Sizes) {
+pub(crate) fn draw(canvas: &mut Canvas, frame: Frame, subject: &Subject<'_>, sizes: Sizes) {
+    let solid = subject.solid;
     let palette = canvas.palette;
     let outline = outline(frame, solid);
     canvas.polygon(&outline, palette.ink, 0.07, 0.0);
-    let feature = corners(solid, case.sample.feature);
-    let feature: Vec<Place> = feature.into_iter().map(|p| frame.place(p)).collect();
+    let feature = subject.feature.map(|feature| corners(solid, feature));
+    let feature = feature.into_iter().flatten();
+    let feature: Vec<Place> = feature.map(|p| frame.place(p)).collect();
     match feature[..] {
+        [] => {}
         [point] => canvas.disc(point, 2.2 * sizes.mark, palette.highlight),
         // An edge may be seen from its end.
         [a, b] if a == b => canvas.disc(a, 2.2 * sizes.mark, palette.highlight),
@@ -97,9 +101,9 @@ pub(super) fn draw(canvas: &mut Canvas, frame: Frame, solid: &Solid, case: &Case
             canvas.line(a, b, Pen::new(palette.ink, sizes.thin));
         }
     }
-    let Segment { start: p, end: q } = case.segment;
+    let Segment { start: p, end: q } = subject.segment;
     let place = |t: f64| frame.place(p + (q - p) * t);
-    strand::draw(canvas, &case.expected, [0.0, 1.0], sizes, place);
+    strand::draw(canvas, subject.clip, subject.shown, sizes, place);
 }
 
 /// Low near, low far, high far, high near.

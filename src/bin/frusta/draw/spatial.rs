@@ -1,18 +1,19 @@
 //! The frustum from outside: hidden edges dashed, one feature highlighted, and
 //! a segment.
 
+use super::Subject;
 use super::camera::Camera;
 use super::canvas::{Canvas, Pen, Place};
 use super::strand::{self, Sizes};
-use crate::samples::case::Case;
 use frusta::samples::{Feature, FeatureKind, Solid};
 use frusta::{FaceSet, Vec3};
 
 /// How far open ends are drawn, as a multiple of the rest.
 const OPEN: f64 = 1.22;
 
-/// The solid and the sample's segment, as the camera sees them.
-pub(super) fn draw(canvas: &mut Canvas, camera: &Camera, solid: &Solid, case: &Case, sizes: Sizes) {
+/// The solid and the segment, as the camera sees them.
+pub(crate) fn draw(canvas: &mut Canvas, camera: &Camera, subject: &Subject<'_>, sizes: Sizes) {
+    let solid = subject.solid;
     let seen = seen(camera, solid);
     let view = View {
         camera,
@@ -21,20 +22,23 @@ pub(super) fn draw(canvas: &mut Canvas, camera: &Camera, solid: &Solid, case: &C
         sizes,
     };
     view.shade(canvas);
-    view.highlight(canvas, case.sample.feature);
+    if let Some(feature) = subject.feature {
+        view.highlight(canvas, feature);
+    }
     let edges = solid.features().into_iter();
     for edge in edges.filter(|f| f.kind() == FeatureKind::Edge) {
         view.edge(canvas, edge);
     }
-    let (p, q) = (case.segment.start, case.segment.end);
-    if let Some(shown) = camera.before_eye(p, q) {
+    let (p, q) = (subject.segment.start, subject.segment.end);
+    if let Some([first, last]) = camera.before_eye(p, q) {
+        let shown = [first.max(subject.shown[0]), last.min(subject.shown[1])];
         let place = |t: f64| camera.place(p + (q - p) * t);
-        strand::draw(canvas, &case.expected, shown, sizes, place);
+        strand::draw(canvas, subject.clip, shown, sizes, place);
     }
 }
 
 /// The corners of a feature: one, two, or four going round.
-pub(super) fn corners(solid: &Solid, feature: Feature) -> Vec<Vec3<f64>> {
+pub(crate) fn corners(solid: &Solid, feature: Feature) -> Vec<Vec3<f64>> {
     let grid = feature.grid();
     if feature.is_apex() {
         return vec![solid.at(grid)];
@@ -53,7 +57,7 @@ pub(super) fn corners(solid: &Solid, feature: Feature) -> Vec<Vec3<f64>> {
 }
 
 /// All corners of the solid, those of an open end where the drawing stops.
-pub(super) fn all_corners(solid: &Solid) -> Vec<Vec3<f64>> {
+pub(crate) fn all_corners(solid: &Solid) -> Vec<Vec3<f64>> {
     let end = if solid.is_infinite() { OPEN } else { 1.0 };
     let mut all = Vec::new();
     for w in [0.0, end] {

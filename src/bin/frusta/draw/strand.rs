@@ -2,28 +2,29 @@
 //! and where it was cut.
 
 use super::canvas::{Canvas, Pen, Place};
+use crate::picture::Palette;
 use frusta::{Class, SegmentClip};
 
 /// How large everything is.
 #[derive(Clone, Copy)]
-pub(super) struct Sizes {
+pub(crate) struct Sizes {
     /// Of the part inside.
-    pub(super) thick: f64,
+    pub(crate) thick: f64,
     /// Of the parts outside, and of edges.
-    pub(super) thin: f64,
+    pub(crate) thin: f64,
     /// The radius of a mark.
-    pub(super) mark: f64,
+    pub(crate) mark: f64,
 }
 
 impl Sizes {
     /// For the picture of one sample.
-    pub(super) const LARGE: Self = Self {
+    pub(crate) const LARGE: Self = Self {
         thick: 4.0,
         thin: 1.7,
         mark: 5.5,
     };
     /// For a cell of the sheet.
-    pub(super) const SMALL: Self = Self {
+    pub(crate) const SMALL: Self = Self {
         thick: 2.6,
         thin: 1.2,
         mark: 3.2,
@@ -32,7 +33,7 @@ impl Sizes {
 
 /// Draws the segment of a clip; `place` gives the place of a parameter, and
 /// `shown` the parameters that can be seen.
-pub(super) fn draw(
+pub(crate) fn draw(
     canvas: &mut Canvas,
     clip: &SegmentClip<f64>,
     shown: [f64; 2],
@@ -107,5 +108,13 @@ fn marks(
     }
     if part.exit.clipped {
         canvas.disc(place(part.exit.t), 1.1 * sizes.mark, palette.cut);
+    }
+}
+
+/// The colour of a class's name; grey is too faint for text.
+pub(crate) fn class_colour(palette: &Palette, class: Class) -> &'static str {
+    match class {
+        Class::Outside => palette.ink,
+        _ => palette.classes[class as usize],
     }
 }

@@ -7,17 +7,28 @@ use frusta::Class;
 /// How wide a stroke is shown.
 const SHOWN: f64 = 34.0;
 
-/// Draws the line; with all classes or without.
-pub(super) fn draw(canvas: &mut Canvas, [x, y]: Place, size: f64, with_classes: bool) {
+/// What is in the line beside marks and strokes.
+#[derive(Clone, Copy)]
+pub(crate) struct Entries {
+    /// The highlighted feature.
+    pub(crate) feature: bool,
+    /// Each class's colour.
+    pub(crate) classes: bool,
+}
+
+/// Draws the line.
+pub(crate) fn draw(canvas: &mut Canvas, [x, y]: Place, size: f64, entries: Entries) {
     let mut row = Row { x, y, size };
     let (palette, sizes) = (canvas.palette, Sizes::LARGE);
     let thin = Pen::new(palette.ink, sizes.thin);
-    let [a, b] = row.stroke();
-    let within = [[a[0] + 6.0, a[1]], [b[0] - 6.0, b[1]]];
-    canvas.line(within[0], within[1], Pen::new(palette.highlight, 12.0));
-    canvas.line(within[0], within[1], thin);
-    row.say(canvas, "the feature");
-    if with_classes {
+    if entries.feature {
+        let [a, b] = row.stroke();
+        let within = [[a[0] + 6.0, a[1]], [b[0] - 6.0, b[1]]];
+        canvas.line(within[0], within[1], Pen::new(palette.highlight, 12.0));
+        canvas.line(within[0], within[1], thin);
+        row.say(canvas, "the feature");
+    }
+    if entries.classes {
         for class in [Class::Boundary, Class::Inside, Class::Cross] {
             let [a, b] = row.stroke();
             let colour = palette.classes[class as usize];

@@ -4,19 +4,19 @@ use crate::picture::{Palette, escaped};
 use std::fmt::Write;
 
 /// A place in a picture: pixels to the right and downwards.
-pub(super) type Place = [f64; 2];
+pub(crate) type Place = [f64; 2];
 
 /// How a line is drawn.
 #[derive(Clone, Copy)]
-pub(super) struct Pen {
-    pub(super) colour: &'static str,
-    pub(super) width: f64,
-    pub(super) dashed: bool,
+pub(crate) struct Pen {
+    pub(crate) colour: &'static str,
+    pub(crate) width: f64,
+    pub(crate) dashed: bool,
 }
 
 impl Pen {
     /// A full line.
-    pub(super) fn new(colour: &'static str, width: f64) -> Self {
+    pub(crate) fn new(colour: &'static str, width: f64) -> Self {
         Self {
             colour,
             width,
@@ -25,7 +25,7 @@ impl Pen {
     }
 
     /// The same line, dashed.
-    pub(super) fn dashed(self) -> Self {
+    pub(crate) fn dashed(self) -> Self {
         Self {
             dashed: true,
             ..self
@@ -46,22 +46,22 @@ impl Pen {
 
 /// How text is set.
 #[derive(Clone, Copy)]
-pub(super) struct Type {
-    pub(super) size: f64,
-    pub(super) bold: bool,
-    pub(super) colour: &'static str,
+pub(crate) struct Type {
+    pub(crate) size: f64,
+    pub(crate) bold: bool,
+    pub(crate) colour: &'static str,
 }
 
 /// A picture in the making.
-pub(super) struct Canvas {
+pub(crate) struct Canvas {
     svg: String,
-    pub(super) palette: &'static Palette,
+    pub(crate) palette: &'static Palette,
 }
 
 // Writing into memory cannot fail, so no result of it is looked at.
 impl Canvas {
     /// An empty picture on the page's colour.
-    pub(super) fn new([width, height]: Place, palette: &'static Palette) -> Self {
+    pub(crate) fn new([width, height]: Place, palette: &'static Palette) -> Self {
         let page = palette.page;
         let svg = format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
@@ -73,14 +73,14 @@ impl Canvas {
     }
 
     /// The file's text.
-    pub(super) fn finish(mut self) -> String {
+    pub(crate) fn finish(mut self) -> String {
         self.svg.push_str("</svg>\n");
         self.svg
     }
 
     /// Draws in a rectangle with coordinates of its own; what leaves it is not
     /// seen.
-    pub(super) fn inside(
+    pub(crate) fn inside(
         &mut self,
         [x, y]: Place,
         [width, height]: Place,
@@ -95,7 +95,7 @@ impl Canvas {
     }
 
     /// A rectangle of paper.
-    pub(super) fn paper(&mut self, [x, y]: Place, [width, height]: Place) {
+    pub(crate) fn paper(&mut self, [x, y]: Place, [width, height]: Place) {
         let Palette { paper, faint, .. } = self.palette;
         let _ = writeln!(
             self.svg,
@@ -105,7 +105,7 @@ impl Canvas {
     }
 
     /// A straight line.
-    pub(super) fn line(&mut self, [x0, y0]: Place, [x1, y1]: Place, pen: Pen) {
+    pub(crate) fn line(&mut self, [x0, y0]: Place, [x1, y1]: Place, pen: Pen) {
         let pen = pen.attributes();
         let _ = writeln!(
             self.svg,
@@ -115,7 +115,7 @@ impl Canvas {
 
     /// An area, filled to a share of opaque, with an outline if its width is
     /// not 0.
-    pub(super) fn polygon(&mut self, corners: &[Place], fill: &str, opacity: f64, outline: f64) {
+    pub(crate) fn polygon(&mut self, corners: &[Place], fill: &str, opacity: f64, outline: f64) {
         let points: Vec<_> = corners
             .iter()
             .map(|[x, y]| format!("{x:.2},{y:.2}"))
@@ -129,7 +129,7 @@ impl Canvas {
     }
 
     /// A filled circle.
-    pub(super) fn disc(&mut self, [x, y]: Place, radius: f64, fill: &str) {
+    pub(crate) fn disc(&mut self, [x, y]: Place, radius: f64, fill: &str) {
         let _ = writeln!(
             self.svg,
             "<circle cx=\"{x:.2}\" cy=\"{y:.2}\" r=\"{radius}\" fill=\"{fill}\"/>"
@@ -137,7 +137,7 @@ impl Canvas {
     }
 
     /// A circle that hides what is below it.
-    pub(super) fn ring(&mut self, [x, y]: Place, radius: f64, pen: Pen) {
+    pub(crate) fn ring(&mut self, [x, y]: Place, radius: f64, pen: Pen) {
         let (paper, pen) = (self.palette.paper, pen.attributes());
         let _ = writeln!(
             self.svg,
@@ -145,13 +145,20 @@ impl Canvas {
         );
     }
 
+    /// A diagonal cross.
+    pub(crate) fn cross(&mut self, [x, y]: Place, radius: f64, pen: Pen) {
+        for side in [radius, -radius] {
+            self.line([x - radius, y - side], [x + radius, y + side], pen);
+        }
+    }
+
     /// A line of text that begins at a place.
-    pub(super) fn text(&mut self, [x, y]: Place, text: &str, font: Type) {
+    pub(crate) fn text(&mut self, [x, y]: Place, text: &str, font: Type) {
         self.set(x, y, "start", text, font);
     }
 
     /// A line of text that ends at a place.
-    pub(super) fn text_before(&mut self, [x, y]: Place, text: &str, font: Type) {
+    pub(crate) fn text_before(&mut self, [x, y]: Place, text: &str, font: Type) {
         self.set(x, y, "end", text, font);
     }
 

@@ -6,7 +6,7 @@ use frusta::samples::Solid;
 
 /// A camera outside of a solid, beside and above it, before its near end, so
 /// that depth grows to the right.
-pub(super) struct Camera {
+pub(crate) struct Camera {
     eye: Vec3<f64>,
     right: Vec3<f64>,
     up: Vec3<f64>,
@@ -21,7 +21,7 @@ pub(super) struct Camera {
 impl Camera {
     /// So placed that these points fill a picture of this size, but for a
     /// margin.
-    pub(super) fn new(solid: &Solid, fit: &[Vec3<f64>], size: Place, margin: f64) -> Self {
+    pub(crate) fn new(solid: &Solid, fit: &[Vec3<f64>], size: Place, margin: f64) -> Self {
         let along = solid.shape.direction().sign();
         let towards = unit(Vec3::new(-0.78 * along, 0.5, -0.42 * along));
         let centre =
@@ -52,7 +52,7 @@ impl Camera {
     }
 
     /// Where a point is in the picture; it must lie before the eye.
-    pub(super) fn place(&self, p: Vec3<f64>) -> Place {
+    pub(crate) fn place(&self, p: Vec3<f64>) -> Place {
         let [x, y] = self.project(p);
         [
             self.offset[0] + (x - self.middle[0]) * self.scale,
@@ -61,12 +61,12 @@ impl Camera {
     }
 
     /// Whether a plane's side that this normal points to is seen.
-    pub(super) fn sees(&self, point: Vec3<f64>, normal: Vec3<f64>) -> bool {
+    pub(crate) fn sees(&self, point: Vec3<f64>, normal: Vec3<f64>) -> bool {
         normal.dot(self.eye - point) > 0.0
     }
 
     /// The parameters of what of a line lies well before the eye.
-    pub(super) fn before_eye(&self, p: Vec3<f64>, q: Vec3<f64>) -> Option<[f64; 2]> {
+    pub(crate) fn before_eye(&self, p: Vec3<f64>, q: Vec3<f64>) -> Option<[f64; 2]> {
         let [a, b] = [p, q].map(|p| self.forward.dot(p - self.eye) - self.nearest);
         match (a < 0.0, b < 0.0) {
             (true, true) => None,

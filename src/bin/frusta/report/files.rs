@@ -1,0 +1,112 @@
+//! A report's folder.
+//!
+//! Its files are begun before anything is measured, so that a folder that cannot be
+//! written is no loss of minutes, and get their names when all of them are whole.
+
+use super::Page;
+use super::data::{Report, Witness};
+use crate::failure::Failure;
+use crate::whole_file::WholeFile;
+use serde::Serialize;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+/// The data files of a report, begun.
+pub(crate) struct Folder {
+    folder: PathBuf,
+    json: WholeFile,
+    rows: WholeFile,
+    witnesses: WholeFile,
+    lines: WholeFile,
+}
+
+impl Folder {
+    /// Makes the folder where there is none, and begins the files.
+    pub(crate) fn begin(folder: &Path) -> Result<Self, Failure> {
+        std::fs::create_dir_all(folder).map_err(|e| {
+            let why = format!("cannot be made a folder: {}", e.kind());
+            Failure::in_file(folder, why)
+        })?;
+        let begin = |name| WholeFile::create(&folder.join(name));
+        Ok(Self {
+            json: begin("report.json")?,
+            rows: begin("rows.csv")?,
+            witnesses: begin("witnesses.csv")?,
+            lines: begin("witnesses.txt")?,
+            folder: folder.to_owned(),
+        })
+    }
+
+    /// Writes the files, then gives them their names.
+    pub(crate) fn finish(mut self, page: &Page<'_>, report: &Report<'_>) -> Result<(), Failure> {
+        self.json.write(report.to_json().as_bytes())?;
+        self.rows.write(&self.csv("rows.csv", &report.rows)?)?;
+        self.witnesses
+            .write(&self.csv("witnesses.csv", &report.witnesses)?)?;
+        self.lines.write(lines(&report.witnesses).as_bytes())?;
+        super::page::write(&self.folder, page)?;
+        let Self {
+            json,
+            rows,
+            witnesses,
+            lines,
+            ..
+        } = self;
+        let mut files = [rows, witnesses, lines, json].into_iter();
+        files.try_for_each(WholeFile::finish)
+    }
+
+    /// Records as CSV, their keys first.
+    fn csv<T: Serialize>(&self, name: &str, records: &[T]) -> Result<Vec<u8>, Failure> {
+        let mut writer = csv::Writer::from_writer(Vec::new());
+        let mut written = records
+            .iter()
+            .try_for_each(|record| writer.serialize(record));
+        if written.is_ok() {
+            written = writer.flush().map_err(csv::Error::from);
+        }
+        let bytes = written.and_then(|()| writer.into_inner().map_err(|e| e.into_error().into()));
+        bytes.map_err(|e| Failure::in_file(&self.folder.join(name), e))
+    }
+}
+
+/// Every worst input once, under comments that say for whom; `frusta replay` takes it
+/// as it stands.
+fn lines(witnesses: &[Witness<'_>]) -> String {
+    // In the order of their first occurrence.
+    let mut places: BTreeMap<&str, usize> = BTreeMap::new();
+    let mut inputs: Vec<(&Witness<'_>, BTreeMap<String, Vec<String>>)> = Vec::new();
+    for witness in witnesses {
+        let place = *places.entry(witness.line).or_insert_with(|| {
+            inputs.push((witness, BTreeMap::new()));
+            inputs.len() - 1
+        });
+        let Witness {
+            algorithm,
+            tier,
+            worst,
+            value,
+            ..
+        } = witness;
+        // An integer for what is counted; errors may have 300 digits.
+        let way = if *value < 1e9 {
+            format!("{worst} {value}")
+        } else {
+            format!("{worst} {value:e}")
+        };
+        let names = inputs[place].1.entry(way).or_default();
+        names.push(format!("{algorithm} {tier}"));
+    }
+    let mut text = String::from("# The worst inputs of a report: frusta replay FILE\n");
+    for (witness, ways) in inputs {
+        let Witness {
+            family, case, line, ..
+        } = witness;
+        text += &format!("\n# {family}, case {case}\n");
+        for (way, names) in ways {
+            text += &format!("# {way}: {}\n", names.join(", "));
+        }
+        text += &format!("{line}\n");
+    }
+    text
+}
