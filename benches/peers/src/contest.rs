@@ -38,13 +38,14 @@ pub struct Effort {
 
 /// Cases that are timed: more than branch predictors learn by heart.
 pub const TIMED: usize = mixes::COUNT;
+const _: () = assert!(TIMED >= 262_144, "branch predictors learn small sets");
 
 impl Effort {
     /// For figures.
     pub const FULL: Self = Self {
         seed: 1,
         lattice: 2_000_000,
-        mix: TIMED,
+        mix: 100_000,
         rounds: 21,
     };
 
@@ -173,7 +174,7 @@ impl Segments {
         effort.cases(self.source.is_mix())
     }
 
-    /// A little of the input, with the judge: for tests.
+    /// Knows the truth.
     pub fn judge(&self) -> SegmentJudge {
         SegmentJudge::new(&self.frustum())
     }
@@ -269,7 +270,7 @@ pub struct Boxes {
     job: &'static str,
     input: &'static str,
     camera: Camera,
-    make: fn(u64, usize) -> Vec<GridBox>,
+    make: fn(&Camera, u64, usize) -> Vec<GridBox>,
 }
 
 impl Boxes {
@@ -282,15 +283,20 @@ impl Boxes {
             enter(TreeCuller::new(camera, true)),
             enter(BevyLoop::new(camera)),
         ];
-        field.extend(Collision::new(camera).map(|peer| enter(peer)));
+        field.extend(Collision::new(camera).map(enter));
         if !self.is_without_ours() {
             field.push(enter(OursPoint::new(&camera.frustum())));
         }
         field
     }
 
+    /// Who looks.
+    pub fn camera(&self) -> &Camera {
+        &self.camera
+    }
+
     fn truth(&self) -> Truth {
-        Truth::new(&self.camera.frustum()).expect("the camera's corners are on the grid")
+        Truth::new(&self.camera).expect("the camera's corners are on the grid")
     }
 
     fn counted(&self, effort: &Effort) -> usize {
@@ -316,13 +322,13 @@ impl Contest for Boxes {
     }
 
     fn run(&self, effort: &Effort, step: &(dyn Fn(u64) + Sync)) -> Vec<Outcome> {
-        let cases = (self.make)(effort.seed, self.counted(effort));
+        let cases = (self.make)(&self.camera, effort.seed, self.counted(effort));
         let tallies = tallies(&self.truth(), &cases, || self.field(), step);
         outcomes(self.loaded(effort), tallies, effort, step)
     }
 
     fn loaded(&self, effort: &Effort) -> Vec<Box<dyn Timed>> {
-        load(self.field(), &(self.make)(effort.seed, TIMED))
+        load(self.field(), &(self.make)(&self.camera, effort.seed, TIMED))
     }
 }
 
@@ -429,6 +435,8 @@ pub fn cullings() -> Vec<Boxes> {
         contest("cull-box", "half-lattice", Camera::LATTICE, boxes::lattice),
         contest("cull-box", "small", Camera::WIDE, boxes::small),
         contest("cull-box", "large", Camera::WIDE, boxes::large),
+        contest("cull-box", "small, turned", Camera::TURNED, boxes::small),
+        contest("cull-box", "large, turned", Camera::TURNED, boxes::large),
     ]
 }
 

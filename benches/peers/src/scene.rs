@@ -35,6 +35,21 @@ impl Camera {
         pose: Pose::IDENTITY,
     };
 
+    /// The same view, turned by the quaternion (4, 1, 2, 2): axes of whole numbers, 25 long, so
+    /// that depths are 25 times as large; its matrix is exact in `f32`, too.
+    pub const TURNED: Self = Self {
+        depths: [25.0, 3225.0],
+        pose: Pose::new(
+            Vec3::new(0.0, 0.0, 0.0),
+            [
+                Vec3::new(9.0, -12.0, 20.0),
+                Vec3::new(20.0, 15.0, 0.0),
+                Vec3::new(-12.0, 16.0, 15.0),
+            ],
+        ),
+        ..Self::WIDE
+    };
+
     /// The camera of frusta's own benchmarks: 60 degrees high, 16:9, 1 to 100.
     ///
     /// # Panics

@@ -11,7 +11,7 @@ use crate::peer::{Case, Contestant};
 use crate::quads::{FoundQuad, Quad};
 use crate::scene::Block;
 use crate::segments::{Found, FoundEnd};
-use frusta::oracle::{Gauge, Oracle, OracleClip, OracleEnd};
+use frusta::oracle::{Gauge, Oracle, OraclePart};
 use frusta::{Frustum, Real, Segment, Vec3};
 use rayon::prelude::*;
 
@@ -72,7 +72,7 @@ pub trait Judge<C: Case>: Sync {
     fn truth(&self, case: &C) -> Self::Truth;
 
     /// The tally of one answer.
-    fn judge(&self, case: &C, truth: &Self::Truth, answer: &C::Answer) -> Tally;
+    fn judge(&self, case: &C, truth: &mut Self::Truth, answer: &C::Answer) -> Tally;
 }
 
 /// Asks everybody about all cases, on all cores; a tally for each in the order of `enter`.
@@ -87,9 +87,9 @@ pub fn count<'a, C: Case, J: Judge<C>>(
         let mut tallies = none();
         let mut contestants = enter();
         for case in cases {
-            let truth = judge.truth(case);
+            let mut truth = judge.truth(case);
             for (contestant, tally) in contestants.iter_mut().zip(&mut tallies) {
-                tally.add(&judge.judge(case, &truth, &contestant.ask(case)));
+                tally.add(&judge.judge(case, &mut truth, &contestant.ask(case)));
             }
         }
         done(cases.len());
@@ -109,69 +109,121 @@ pub fn count<'a, C: Case, J: Judge<C>>(
 /// Judges segments by frusta's oracle.
 pub struct SegmentJudge(Oracle);
 
+/// The truth about a segment. Many answers are the same to the bit: what an end of one is worth
+/// is found out once.
+pub struct SegmentTruth<T> {
+    part: Option<OraclePart>,
+    known: Vec<(Vec3<T>, EndWorth)>,
+    gauges: [Option<Gauge>; 2],
+}
+
+/// What an end that was computed is worth.
+#[derive(Clone, Copy)]
+struct EndWorth {
+    inside: bool,
+    /// In unit roundoffs of the segment's largest coordinate.
+    error: f64,
+}
+
 impl SegmentJudge {
     /// For one frustum.
     pub fn new(frustum: &Frustum) -> Self {
         Self(Oracle::new(frustum))
     }
 
-    fn is_inside<T: Real>(&self, end: &FoundEnd<T>, exact: &OracleEnd) -> bool {
-        match end.inside {
-            _ if end.kept => !exact.clipped,
-            Some(inside) => inside,
-            None => self.0.contains(end.point),
+    /// Of the start or the end of a hit.
+    fn worth<T: Real>(
+        &self,
+        segment: &Segment<T>,
+        truth: &mut SegmentTruth<T>,
+        which: usize,
+        end: &FoundEnd<T>,
+    ) -> EndWorth {
+        let exact = truth.part.as_ref().map(|p| [&p.entry, &p.exit][which]);
+        let Some(exact) = exact else {
+            return EndWorth::OWN;
+        };
+        if end.kept {
+            let inside = !exact.clipped;
+            return EndWorth {
+                inside,
+                ..EndWorth::OWN
+            };
         }
+        let found = truth.known.iter().find(|(point, _)| *point == end.point);
+        let mut worth = match found {
+            Some((_, worth)) => *worth,
+            None => {
+                let gauge = truth.gauges[which].get_or_insert_with(|| Gauge::new::<T>(exact));
+                let worth = EndWorth {
+                    inside: self.0.contains(end.point),
+                    error: in_roundoffs(segment, gauge.deviation(end.point)),
+                };
+                truth.known.push((end.point, worth));
+                worth
+            }
+        };
+        worth.inside = end.inside.unwrap_or(worth.inside);
+        worth
     }
 }
 
-/// The truth about a segment; nothing about one that is not finite.
-pub struct SegmentTruth(Option<OracleClip>);
+impl EndWorth {
+    /// The segment's own end, inside.
+    const OWN: Self = Self {
+        inside: true,
+        error: 0.0,
+    };
+}
 
 impl<T: Real> Judge<Segment<T>> for SegmentJudge {
-    type Truth = SegmentTruth;
+    type Truth = SegmentTruth<T>;
 
-    fn truth(&self, segment: &Segment<T>) -> SegmentTruth {
-        SegmentTruth(self.0.clip(segment).ok())
+    fn truth(&self, segment: &Segment<T>) -> SegmentTruth<T> {
+        SegmentTruth {
+            part: self.0.clip(segment).ok().and_then(|clip| clip.part),
+            known: Vec::new(),
+            gauges: [None; 2],
+        }
     }
 
-    fn judge(&self, segment: &Segment<T>, truth: &SegmentTruth, answer: &Found<T>) -> Tally {
-        let exact = truth.0.as_ref().and_then(|clip| clip.part.as_ref());
-        let (Found::Part(ends), Some(exact)) = (answer, exact) else {
+    fn judge(&self, segment: &Segment<T>, truth: &mut SegmentTruth<T>, answer: &Found<T>) -> Tally {
+        let (Found::Part(ends), true) = (answer, truth.part.is_some()) else {
             let seen = match answer {
                 Found::Nothing => Some(false),
                 Found::Part(_) => Some(true),
                 Found::Refused => None,
             };
-            return Tally::of_seen(seen, exact.is_some());
+            return Tally::of_seen(seen, truth.part.is_some());
         };
-        let pairs = [(&ends[0], &exact.entry), (&ends[1], &exact.exit)];
-        let kept = pairs.iter().any(|(end, exact)| end.kept && exact.clipped);
-        let outside = pairs.iter().any(|(end, exact)| !self.is_inside(end, exact));
-        let errors = pairs.map(|(end, exact)| error(segment, end, exact));
+        let worth = [0, 1].map(|which| self.worth(segment, truth, which, &ends[which]));
+        let is_kept = |which: usize| ends[which].kept && !worth[which].inside;
+        let kept = is_kept(0) || is_kept(1);
         Tally {
             cases: 1,
             kept: u64::from(kept),
-            outside: u64::from(outside),
-            max_error: if kept { 0.0 } else { errors[0].max(errors[1]) },
+            outside: u64::from(!worth[0].inside || !worth[1].inside),
+            max_error: if kept {
+                0.0
+            } else {
+                worth[0].error.max(worth[1].error)
+            },
             ..Tally::default()
         }
     }
 }
 
-/// How far off an end is, in unit roundoffs of the segment's largest coordinate.
-fn error<T: Real>(segment: &Segment<T>, end: &FoundEnd<T>, exact: &OracleEnd) -> f64 {
-    if end.kept {
+/// A distance in unit roundoffs of the segment's largest coordinate.
+fn in_roundoffs<T: Real>(segment: &Segment<T>, distance: f64) -> f64 {
+    let ends = [segment.start, segment.end].map(|p| p.to_f64().to_array());
+    let scale = ends
+        .as_flattened()
+        .iter()
+        .fold(0.0, |s: f64, c| s.max(c.abs()));
+    if distance == 0.0 {
         return 0.0;
     }
-    let size = |p: Vec3<T>| p.to_f64().to_array().map(f64::abs).into_iter();
-    let scale = size(segment.start)
-        .chain(size(segment.end))
-        .fold(0.0, f64::max);
-    let deviation = Gauge::new::<T>(exact).deviation(end.point);
-    if deviation == 0.0 {
-        return 0.0;
-    }
-    deviation / (T::UNIT_ROUNDOFF * scale)
+    distance / (T::UNIT_ROUNDOFF * scale)
 }
 
 impl Judge<GridBox> for Truth {
@@ -181,7 +233,7 @@ impl Judge<GridBox> for Truth {
         self.meets(case)
     }
 
-    fn judge(&self, _: &GridBox, truth: &Option<bool>, answer: &Option<bool>) -> Tally {
+    fn judge(&self, _: &GridBox, truth: &mut Option<bool>, answer: &Option<bool>) -> Tally {
         match truth {
             Some(meets) => Tally::of_seen(*answer, *meets),
             None => Tally::default(),
@@ -196,7 +248,7 @@ impl Judge<Quad> for Block {
         quad.within(self)
     }
 
-    fn judge(&self, _: &Quad, truth: &Option<Quad>, answer: &FoundQuad) -> Tally {
+    fn judge(&self, _: &Quad, truth: &mut Option<Quad>, answer: &FoundQuad) -> Tally {
         let FoundQuad::Bounds(found) = answer else {
             let seen = (*answer != FoundQuad::Refused).then_some(false);
             return Tally::of_seen(seen, truth.is_some());

@@ -40,7 +40,7 @@ impl Peer for BevyLoop {
             library: "bevy_shape",
             function: "HalfSpace, in bevy_camera's loop",
             scalar: "f32",
-            note: "conservative by design; its loop restated here",
+            note: "conservative by design, but drops what only touches; its loop restated here",
         }
     }
 

@@ -86,15 +86,16 @@ pub fn quads(seed: u64, count: usize) -> Vec<Quad> {
 /// Boxes on the grid.
 pub mod boxes {
     use crate::boxes::GridBox;
+    use crate::scene::Camera;
     use frusta::samples::Random;
 
     /// Half-integer points around the lattice's camera.
-    pub fn points(seed: u64, count: usize) -> Vec<GridBox> {
+    pub fn points(_: &Camera, seed: u64, count: usize) -> Vec<GridBox> {
         halves(seed, count, 0)
     }
 
     /// Half-integer boxes around the lattice's camera, some of no extent along some axes.
-    pub fn lattice(seed: u64, count: usize) -> Vec<GridBox> {
+    pub fn lattice(_: &Camera, seed: u64, count: usize) -> Vec<GridBox> {
         halves(seed, count, 5)
     }
 
@@ -116,28 +117,29 @@ pub mod boxes {
     }
 
     /// Half extents up to a fiftieth of the view's depth.
-    pub fn small(seed: u64, count: usize) -> Vec<GridBox> {
-        around(seed, count, 2.5)
+    pub fn small(camera: &Camera, seed: u64, count: usize) -> Vec<GridBox> {
+        around(camera, seed, count, 2.5)
     }
 
     /// Half extents up to half of the view's depth.
-    pub fn large(seed: u64, count: usize) -> Vec<GridBox> {
-        around(seed, count, 64.0)
+    pub fn large(camera: &Camera, seed: u64, count: usize) -> Vec<GridBox> {
+        around(camera, seed, count, 64.0)
     }
 
-    /// Boxes around the wide camera, centres even in a space that is half again as wide.
-    fn around(seed: u64, count: usize, longest: f64) -> Vec<GridBox> {
+    /// Boxes around a camera that sees as far as 129, centres even in a space that is half again
+    /// as wide.
+    fn around(camera: &Camera, seed: u64, count: usize, longest: f64) -> Vec<GridBox> {
         let mut random = Random::new(&[seed, 6]);
+        let axes = camera.pose.axes.map(|a| a * (1.0 / a.dot(a).sqrt()));
+        let on_grid = |c: f64| ((c / GridBox::STEP).round() * GridBox::STEP) as f32;
         let mut one = |_| {
-            let mut range = |[low, high]: [f64; 2]| {
-                let (centre, half) = (random.between(low, high), random.between(0.0, longest));
-                let steps = [centre - half, centre + half].map(|c| (c / GridBox::STEP).round());
-                steps.map(|s| (s * GridBox::STEP) as f32)
-            };
-            let ranges = [[-194.0, 194.0], [-97.0, 97.0], [-150.0, 20.0]].map(&mut range);
+            let ranges = [[-194.0, 194.0], [-97.0, 97.0], [-150.0, 20.0]];
+            let [x, y, z] = ranges.map(|[low, high]| random.between(low, high));
+            let centre = (axes[0] * x + axes[1] * y + axes[2] * z).to_array();
+            let half = [(); 3].map(|()| random.between(0.0, longest));
             GridBox {
-                min: ranges.map(|[low, _]| low),
-                max: ranges.map(|[_, high]| high),
+                min: [0, 1, 2].map(|k: usize| on_grid(centre[k] - half[k])),
+                max: [0, 1, 2].map(|k: usize| on_grid(centre[k] + half[k])),
             }
         };
         (0..count).map(&mut one).collect()
