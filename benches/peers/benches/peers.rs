@@ -6,7 +6,7 @@
 //! use, too.
 
 use criterion::{Criterion, SamplingMode, Throughput, criterion_group, criterion_main};
-use frusta_peers::contest::{self, Effort, TIMED};
+use frusta_peers::contest::{self, Effort};
 use std::time::Duration;
 
 /// Cases whose answers are judged before.
@@ -14,7 +14,7 @@ const JUDGED: Effort = Effort {
     lattice: 2000,
     mix: 2000,
     rounds: 0,
-    ..Effort::QUICK
+    ..Effort::FULL
 };
 
 fn peers(c: &mut Criterion) {
@@ -28,7 +28,7 @@ fn peers(c: &mut Criterion) {
         }
         let name = format!("{}/{}", contest.job(), contest.input());
         let mut group = c.benchmark_group(name);
-        group.throughput(Throughput::Elements(TIMED as u64));
+        group.throughput(Throughput::Elements(JUDGED.timed as u64));
         group.sampling_mode(SamplingMode::Flat);
         for mut contestant in contest.loaded(&JUDGED) {
             let who = contestant.who();

@@ -170,12 +170,9 @@ pub fn headlines(rows: &[Row]) -> Vec<Headline> {
         let found = rows.iter().filter(is_it).filter(is_mix);
         found.filter_map(own).collect()
     };
-    let (clip, bounds) = ("Aabb::clip_segment", "Aabb::clip_segment, bounding box");
-    let transform = "view_frustum::clip, with transform";
-    let (slices, positions) = (
-        "view_frustum::clip, with transform, slices",
-        "view_frustum::clip, with transform, positions",
-    );
+    let (clip, bounds) = ("Aabb::clip_segment", "clip_segment, bounding box");
+    let transform = "transform + clip";
+    let (slices, positions) = ("transform + clip, slices", "transform + clip, positions");
     let mut all = Vec::new();
     for (job, function, library) in [
         ("segment-box", clip, "parry3d-f64"),

@@ -114,6 +114,7 @@ fn exact_tiers_are_right_and_the_reference_is_first() {
     let effort = Effort {
         lattice: 3000,
         mix: 500,
+        timed: 2000,
         rounds: 1,
         ..Effort::QUICK
     };
@@ -161,7 +162,7 @@ fn known_failures_are_counted() {
         ..NONE
     };
     assert_eq!(tally(false, "Aabb::clip_segment", short), phantom);
-    let clamped = "Aabb::clip_line_parameters, clamped";
+    let clamped = "clip_line_parameters, clamped";
     assert_eq!(tally(false, clamped, short), Tally { cases: 1, ..NONE });
     let from_face = [[1.0, 0.0, 0.0], [3.0, 0.0, 0.0]];
     let kept = Tally {

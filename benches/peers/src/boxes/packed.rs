@@ -27,9 +27,9 @@ impl Peer for PackedSpatialIndex {
     fn who(&self) -> Who {
         Who {
             library: "packed_spatial_index",
-            function: "Frustum3D::overlaps_box",
+            function: "overlaps_box",
             scalar: "f64",
-            note: "conservative by design",
+            note: "Frustum3D::overlaps_box; conservative by design",
         }
     }
 

@@ -5,13 +5,13 @@ use crate::mixes;
 use crate::peer::Peer;
 use crate::scene::{Block, Camera};
 use crate::segments::{
-    CohenSutherland2, Found, ParryBox64, ParryCall, Prepared, cube_matrix, reference,
+    CohenSutherland2, Found, Ours, ParryBox64, ParryCall, Prepared, cube_matrix,
 };
 use bevy_math::{Mat4, Vec4};
 use bevy_shape::ViewFrustum;
 use cgmath::Ortho;
 use collision::Projection;
-use frusta::{EndRect, Frustum, Pose, Real, Segment, Shape, Vec3};
+use frusta::{Accuracy, EndRect, Frustum, Pose, Real, Segment, Shape, Vec3, VwProjection};
 
 /// An input, with who answers it.
 pub struct Input {
@@ -177,10 +177,13 @@ fn line_clipping(window: &Block, ends: [[f64; 2]; 2]) -> String {
     say(&CohenSutherland2::new(window).answer(&segment(ends)))
 }
 
+/// To the nearest: `Fast` is as exact as the segment's coordinates are large.
 fn clipped(frustum: &Frustum, ends: [[f64; 3]; 2]) -> String {
-    match frustum.clip_segment(&segment(ends)) {
+    let nearest = VwProjection::exact(Accuracy::Nearest);
+    let s = segment(ends);
+    match frustum.clip_segment(&s) {
         Err(error) => format!("refused: {error}"),
-        Ok(_) => say(&reference(frustum).answer(&segment(ends))),
+        Ok(_) => say(&Ours::new(frustum, nearest, "").answer(&s)),
     }
 }
 

@@ -21,16 +21,20 @@ impl ParryCall {
     const fn function(self) -> &'static str {
         match self {
             Self::ClipSegment => "Aabb::clip_segment",
-            Self::LineClamped => "Aabb::clip_line_parameters, clamped",
-            Self::BoundingBox => "Aabb::clip_segment, bounding box",
+            Self::LineClamped => "clip_line_parameters, clamped",
+            Self::BoundingBox => "clip_segment, bounding box",
         }
     }
 
     const fn note(self) -> &'static str {
         match self {
             Self::ClipSegment => "",
-            Self::LineClamped => "the caller keeps what of the line is in 0..=1",
-            Self::BoundingBox => "the frustum's bounding box: another question, times only",
+            Self::LineClamped => {
+                "Aabb::clip_line_parameters; the caller keeps what of the line is in 0..=1"
+            }
+            Self::BoundingBox => {
+                "Aabb::clip_segment by the frustum's bounding box: another question, times only"
+            }
         }
     }
 }
@@ -55,7 +59,7 @@ macro_rules! parry {
         impl Peer for $name {
             type Case = Segment<$t>;
             type Input = [$lib::math::Vector; 2];
-            type Output<'a> = Option<[$lib::math::Vector; 2]>;
+            type Output<'a> = Option<$lib::shape::Segment>;
 
             fn who(&self) -> Who {
                 Who {
@@ -72,7 +76,7 @@ macro_rules! parry {
 
             fn run(&mut self, &[p, q]: &Self::Input) -> Self::Output<'_> {
                 if self.call != ParryCall::LineClamped {
-                    return self.block.clip_segment(p, q).map(|s| [s.a, s.b]);
+                    return self.block.clip_segment(p, q);
                 }
                 let d = q - p;
                 let (t0, t1) = self.block.clip_line_parameters(p, d)?;
@@ -80,7 +84,7 @@ macro_rules! parry {
                 (!missed).then(|| {
                     let start = if t0 > 0.0 { p + d * t0 } else { p };
                     let end = if t1 < 1.0 { p + d * t1 } else { q };
-                    [start, end]
+                    $lib::shape::Segment::new(start, end)
                 })
             }
 
@@ -88,7 +92,7 @@ macro_rules! parry {
                 let input = self.prepare(segment);
                 match self.run(&input) {
                     None => Found::Nothing,
-                    Some(points) => part(segment, points.map(|p| p.into())),
+                    Some(s) => part(segment, [s.a, s.b].map(|p| p.into())),
                 }
             }
         }
