@@ -19,19 +19,17 @@ const JUDGED: Effort = Effort {
 
 fn peers(c: &mut Criterion) {
     for contest in contest::all() {
-        for outcome in contest.run(&JUDGED, &|_| ()) {
-            let Some(tally) = outcome.tally else { continue };
-            assert_eq!(tally.refused, 0, "{:?}", outcome.who);
-            let ours = outcome.who.library == "frusta";
-            let is_exact = ours && !outcome.who.function.contains("plain");
-            assert!(!is_exact || tally.wrong() == 0, "{:?}", outcome.who);
-        }
-        let name = format!("{}/{}", contest.job(), contest.input());
-        let mut group = c.benchmark_group(name);
+        let tallies = contest.tallies(&JUDGED, &|_| ());
+        let mut group = c.benchmark_group(format!("{}/{}", contest.job(), contest.input()));
         group.throughput(Throughput::Elements(JUDGED.timed as u64));
         group.sampling_mode(SamplingMode::Flat);
-        for mut contestant in contest.loaded(&JUDGED) {
+        for (mut contestant, tally) in contest.loaded(&JUDGED).into_iter().zip(tallies) {
             let who = contestant.who();
+            if let Some(tally) = tally {
+                assert_eq!(tally.refused, 0, "{who:?}");
+                let is_exact = who.library == "frusta" && !who.function.contains("plain");
+                assert!(!is_exact || tally.wrong() == 0, "{who:?}: {tally:?}");
+            }
             let name = format!("{}/{}/{}", who.library, who.function, who.scalar);
             group.bench_function(name, |b| b.iter(|| contestant.pass()));
         }

@@ -105,11 +105,17 @@ pub trait Contest {
     /// How many steps of progress [`Contest::run`] reports.
     fn steps(&self, effort: &Effort) -> u64;
 
-    /// Counts and times.
-    fn run(&self, effort: &Effort, step: &(dyn Fn(u64) + Sync)) -> Vec<Outcome>;
+    /// Everybody's wrong answers; `None` for who is asked for the time only.
+    fn tallies(&self, effort: &Effort, step: &(dyn Fn(u64) + Sync)) -> Vec<Option<Tally>>;
 
     /// Everybody, loaded with the cases that are timed.
     fn loaded(&self, effort: &Effort) -> Vec<Box<dyn Timed>>;
+
+    /// Counts and times.
+    fn run(&self, effort: &Effort, step: &(dyn Fn(u64) + Sync)) -> Vec<Outcome> {
+        let tallies = self.tallies(effort, step);
+        outcomes(self.loaded(effort), tallies, effort, step)
+    }
 }
 
 /// A segment job on an input.
@@ -249,7 +255,7 @@ impl Contest for Segments {
         scalars * self.counted(effort) as u64
     }
 
-    fn run(&self, effort: &Effort, step: &(dyn Fn(u64) + Sync)) -> Vec<Outcome> {
+    fn tallies(&self, effort: &Effort, step: &(dyn Fn(u64) + Sync)) -> Vec<Option<Tally>> {
         let (judge, n) = (self.judge(), self.counted(effort));
         let cases = self.source.segments::<f64>(effort.seed, n);
         let mut all = tallies(&judge, &cases, || self.doubles(), step);
@@ -257,7 +263,7 @@ impl Contest for Segments {
             let cases = self.source.segments::<f32>(effort.seed, n);
             all.extend(tallies(&judge, &cases, || self.singles(), step));
         }
-        outcomes(self.loaded(effort), all, effort, step)
+        all
     }
 
     fn loaded(&self, effort: &Effort) -> Vec<Box<dyn Timed>> {
@@ -326,10 +332,9 @@ impl Contest for Boxes {
         self.counted(effort) as u64
     }
 
-    fn run(&self, effort: &Effort, step: &(dyn Fn(u64) + Sync)) -> Vec<Outcome> {
+    fn tallies(&self, effort: &Effort, step: &(dyn Fn(u64) + Sync)) -> Vec<Option<Tally>> {
         let cases = (self.make)(&self.camera, effort.seed, self.counted(effort));
-        let tallies = tallies(&self.truth(), &cases, || self.field(), step);
-        outcomes(self.loaded(effort), tallies, effort, step)
+        tallies(&self.truth(), &cases, || self.field(), step)
     }
 
     fn loaded(&self, effort: &Effort) -> Vec<Box<dyn Timed>> {
@@ -368,10 +373,9 @@ impl Contest for Quads {
         effort.mix as u64
     }
 
-    fn run(&self, effort: &Effort, step: &(dyn Fn(u64) + Sync)) -> Vec<Outcome> {
+    fn tallies(&self, effort: &Effort, step: &(dyn Fn(u64) + Sync)) -> Vec<Option<Tally>> {
         let cases = quads(effort.seed, effort.mix);
-        let tallies = tallies(&Block::CUBE, &cases, || self.field(), step);
-        outcomes(self.loaded(effort), tallies, effort, step)
+        tallies(&Block::CUBE, &cases, || self.field(), step)
     }
 
     fn loaded(&self, effort: &Effort) -> Vec<Box<dyn Timed>> {

@@ -52,7 +52,7 @@ pub struct Row {
     pub time_ratio_quartiles: Option<[f64; 2]>,
     /// Times the time of exact-class V/W in `f32`, median over rounds.
     pub time_ratio_f32: Option<f64>,
-    /// Wrong answers: phantom, missed, kept and refused.
+    /// Wrong answers: phantom, missed, misplaced and refused.
     pub wrong: Option<u64>,
     /// Hits where there is nothing.
     pub phantom: Option<u64>,
@@ -60,8 +60,8 @@ pub struct Row {
     pub missed: Option<u64>,
     /// Hits, rightly, with an end that is outside, exactly.
     pub outside: Option<u64>,
-    /// Hits, rightly, with an end given back as it was although it is outside.
-    pub kept: Option<u64>,
+    /// Hits, rightly, with an end in a wrong place.
+    pub misplaced: Option<u64>,
     /// Errors and numbers that are not finite.
     pub refused: Option<u64>,
     /// The largest error of an end, in unit roundoffs of the largest coordinate; null where
@@ -117,7 +117,7 @@ impl Row {
             phantom: tally.map(|t| t.phantom),
             missed: tally.map(|t| t.missed),
             outside: tally.map(|t| t.outside),
-            kept: tally.map(|t| t.kept),
+            misplaced: tally.map(|t| t.misplaced),
             refused: tally.map(|t| t.refused),
             max_error_u_scale: tally.map(|t| t.max_error).filter(is_computed),
             note: who.note,
@@ -142,7 +142,7 @@ impl Row {
             phantom: None,
             missed: None,
             outside: None,
-            kept: None,
+            misplaced: None,
             refused: None,
             max_error_u_scale: None,
             note: "ours: not built yet",

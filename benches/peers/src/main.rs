@@ -6,8 +6,9 @@ use frusta_peers::contest::{self, Effort};
 use frusta_peers::file::{Report, Row};
 use frusta_peers::{facts, table};
 use indicatif::{ProgressBar, ProgressStyle};
+use std::fs::File;
 use std::io::{self, Write};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 /// Other libraries' clipping and culling beside frusta's, on the same input.
@@ -55,6 +56,12 @@ fn run(args: &Args) -> io::Result<()> {
             Effort::FULL
         }
     };
+    let failed = |path: &Path, e| io::Error::other(format!("{}: {e}", path.display()));
+    if let Some(path) = &args.out {
+        // Now, not after minutes.
+        let opened = File::options().append(true).create(true).open(path);
+        opened.map_err(|e| failed(path, e))?;
+    }
     writeln!(out, "{}", table::heading())?;
     let rows = contests(&effort, &mut out)?;
     let facts = facts::ask(&std::env::current_exe()?);
@@ -62,8 +69,7 @@ fn run(args: &Args) -> io::Result<()> {
     conclude(&report, &mut out)?;
     if let Some(path) = &args.out {
         let text = serde_json::to_string_pretty(&report)?;
-        let failed = |e| io::Error::other(format!("{}: {e}", path.display()));
-        std::fs::write(path, text + "\n").map_err(failed)?;
+        std::fs::write(path, text + "\n").map_err(|e| failed(path, e))?;
     }
     let wrong = report.rows.iter().filter(|row| row.is_exact_tier());
     match wrong.filter_map(|row| row.wrong).sum() {

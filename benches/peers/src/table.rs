@@ -8,7 +8,7 @@ use std::fmt::Write;
 pub fn heading() -> String {
     format!(
         "{:<43} {:>3} {:>6} {:>5} {:>7} {:>7} {:>7} {:>7} {:>7}",
-        "", "", "ns", "ratio", "phantom", "missed", "kept", "outside", "refused"
+        "", "", "ns", "ratio", "phantom", "missed", "place", "outside", "refused"
     )
 }
 
@@ -33,7 +33,13 @@ pub fn line(row: &Row) -> String {
         time(row.ns_median, 1),
         time(row.time_ratio, 2)
     );
-    for n in [row.phantom, row.missed, row.kept, row.outside, row.refused] {
+    for n in [
+        row.phantom,
+        row.missed,
+        row.misplaced,
+        row.outside,
+        row.refused,
+    ] {
         // A text cannot fail to be written to.
         let _ = write!(line, " {:>7}", count(n));
     }

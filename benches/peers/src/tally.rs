@@ -2,7 +2,8 @@
 //!
 //! Right is what the closed set says exactly, touching included. An answer is wrong if it sees
 //! something where there is nothing (*phantom*), nothing where there is something (*missed*), is
-//! refused or not finite, or gives an end back as it was although it is outside (*kept*). An
+//! refused or not finite, or has an end in a wrong place (*misplaced*): given back as it was
+//! although it is outside, or farther off than any rounding explains. An
 //! end that is *outside* by rounding, as most clipped ends of everybody are, is counted beside
 //! and is not wrong.
 
@@ -15,6 +16,11 @@ use frusta::oracle::{Gauge, Oracle, OraclePart};
 use frusta::{Frustum, Real, Segment, Vec3};
 use rayon::prelude::*;
 
+/// How far off an end must be to be in a wrong place rather than rounded, in the segment's largest
+/// coordinate. Any peer's rounding errors on these inputs are below half of it; errors of
+/// decision are of the size of the set.
+pub const FAR_OFF: f64 = 1.0 / 1024.0;
+
 /// Counts over cases.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Tally {
@@ -26,8 +32,9 @@ pub struct Tally {
     pub missed: u64,
     /// Hits, rightly, with an end that is not in the set.
     pub outside: u64,
-    /// Hits, rightly, with an end given back as it was although it is outside.
-    pub kept: u64,
+    /// Hits, rightly, with an end given back as it was although it is outside, or off by more than
+    /// [`FAR_OFF`].
+    pub misplaced: u64,
     /// Errors and numbers that are not finite.
     pub refused: u64,
     /// The largest error of an end, in unit roundoffs of the segment's largest coordinate, where
@@ -38,7 +45,7 @@ pub struct Tally {
 impl Tally {
     /// Wrong answers of any kind.
     pub fn wrong(&self) -> u64 {
-        self.phantom + self.missed + self.kept + self.refused
+        self.phantom + self.missed + self.misplaced + self.refused
     }
 
     fn add(&mut self, other: &Self) {
@@ -46,7 +53,7 @@ impl Tally {
         self.phantom += other.phantom;
         self.missed += other.missed;
         self.outside += other.outside;
-        self.kept += other.kept;
+        self.misplaced += other.misplaced;
         self.refused += other.refused;
         self.max_error = self.max_error.max(other.max_error);
     }
@@ -198,16 +205,14 @@ impl<T: Real> Judge<Segment<T>> for SegmentJudge {
         };
         let worth = [0, 1].map(|which| self.worth(segment, truth, which, &ends[which]));
         let is_kept = |which: usize| ends[which].kept && !worth[which].inside;
-        let kept = is_kept(0) || is_kept(1);
+        let max_error = worth[0].error.max(worth[1].error);
+        let is_far_off = max_error * T::UNIT_ROUNDOFF > FAR_OFF;
+        let misplaced = is_kept(0) || is_kept(1) || is_far_off;
         Tally {
             cases: 1,
-            kept: u64::from(kept),
+            misplaced: u64::from(misplaced),
             outside: u64::from(!worth[0].inside || !worth[1].inside),
-            max_error: if kept {
-                0.0
-            } else {
-                worth[0].error.max(worth[1].error)
-            },
+            max_error: if misplaced { 0.0 } else { max_error },
             ..Tally::default()
         }
     }

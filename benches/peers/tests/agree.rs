@@ -16,7 +16,7 @@ const NONE: Tally = Tally {
     phantom: 0,
     missed: 0,
     outside: 0,
-    kept: 0,
+    misplaced: 0,
     refused: 0,
     max_error: 0.0,
 };
@@ -165,13 +165,13 @@ fn known_failures_are_counted() {
     let clamped = "clip_line_parameters, clamped";
     assert_eq!(tally(false, clamped, short), Tally { cases: 1, ..NONE });
     let from_face = [[1.0, 0.0, 0.0], [3.0, 0.0, 0.0]];
-    let kept = Tally {
+    let misplaced = Tally {
         cases: 1,
-        kept: 1,
+        misplaced: 1,
         outside: 1,
         ..NONE
     };
-    assert_eq!(tally(true, "view_frustum::clip", from_face), kept);
+    assert_eq!(tally(true, "view_frustum::clip", from_face), misplaced);
     assert_eq!(
         tally(true, REFERENCE, from_face),
         Tally { cases: 1, ..NONE }
