@@ -1,0 +1,470 @@
+//! Which jobs on which inputs, and who takes part.
+
+mod inputs;
+
+use inputs::Source;
+pub use inputs::{boxes, quads};
+
+use crate::boxes::{
+    BevyLoop, Collision, GridBox, OursPoint, PackedSpatialIndex, TreeCuller, Truth,
+};
+use crate::mixes::{self, Mix};
+use crate::peer::{Case, Contestant, Timed, enter};
+use crate::quads::{PlaneSplit, Quad};
+use crate::scene::{Block, Camera};
+use crate::segments::{
+    Attributed, CohenSutherland2, ParryBox32, ParryBox64, ParryCall, Prepared, REFERENCE, Slice,
+    Transformed, contenders, cube_matrix,
+};
+use crate::tally::{Judge, SegmentJudge, Tally, count};
+use crate::turns::{Time, take_turns};
+use frusta::{Frustum, Segment};
+
+/// Contestants for one kind of case.
+pub type Field<C> = Vec<Box<dyn Contestant<C>>>;
+
+/// How much is done.
+#[derive(Clone, Copy, Debug)]
+pub struct Effort {
+    /// What random input is made from.
+    pub seed: u64,
+    /// Cases of a lattice or of uniform input that are counted.
+    pub lattice: usize,
+    /// Cases of a mix that are counted.
+    pub mix: usize,
+    /// Cases that are timed.
+    pub timed: usize,
+    /// Rounds that are timed.
+    pub rounds: usize,
+}
+
+const _: () = assert!(
+    Effort::FULL.timed >= 262_144,
+    "branch predictors learn small sets by heart"
+);
+
+impl Effort {
+    /// For figures.
+    pub const FULL: Self = Self {
+        seed: 1,
+        lattice: 2_000_000,
+        mix: 100_000,
+        timed: mixes::COUNT,
+        rounds: 21,
+    };
+
+    /// To see that it works: its times flatter branches, which are learnt by heart.
+    pub const QUICK: Self = Self {
+        seed: 1,
+        lattice: 20_000,
+        mix: 4_000,
+        timed: 16_384,
+        rounds: 3,
+    };
+
+    fn cases(&self, of_mix: bool) -> usize {
+        if of_mix { self.mix } else { self.lattice }
+    }
+}
+
+/// By what segments are clipped.
+#[derive(Clone, Copy, Debug)]
+pub enum Place {
+    /// A box, an orthographic frustum.
+    Box(Block),
+    /// The window of a box, for segments in one plane across the view.
+    Window(Block),
+    /// A perspective frustum.
+    Frustum(Camera),
+}
+
+/// What one contestant did in one contest.
+#[derive(Clone, Debug)]
+pub struct Outcome {
+    /// Who.
+    pub who: crate::peer::Who,
+    /// Its wrong answers; `None` where it was asked for its time only.
+    pub tally: Option<Tally>,
+    /// Its times.
+    pub time: Time,
+}
+
+/// A contest that can be run.
+pub trait Contest {
+    /// The job's name.
+    fn job(&self) -> &'static str;
+
+    /// The input's name.
+    fn input(&self) -> &str;
+
+    /// Whether frusta cannot do this job yet.
+    fn is_without_ours(&self) -> bool {
+        false
+    }
+
+    /// How many steps of progress [`Contest::run`] reports.
+    fn steps(&self, effort: &Effort) -> u64;
+
+    /// Everybody's wrong answers; `None` for who is asked for the time only.
+    fn tallies(&self, effort: &Effort, step: &(dyn Fn(u64) + Sync)) -> Vec<Option<Tally>>;
+
+    /// Everybody, loaded with the cases that are timed.
+    fn loaded(&self, effort: &Effort) -> Vec<Box<dyn Timed>>;
+
+    /// Counts and times.
+    fn run(&self, effort: &Effort, step: &(dyn Fn(u64) + Sync)) -> Vec<Outcome> {
+        let tallies = self.tallies(effort, step);
+        outcomes(self.loaded(effort), tallies, effort, step)
+    }
+}
+
+/// A segment job on an input.
+#[derive(Clone, Debug)]
+pub struct Segments {
+    job: &'static str,
+    input: String,
+    place: Place,
+    source: Source,
+}
+
+impl Segments {
+    /// The frustum, exactly.
+    pub fn frustum(&self) -> Frustum {
+        match &self.place {
+            Place::Box(block) | Place::Window(block) => block.frustum(),
+            Place::Frustum(camera) => camera.frustum(),
+        }
+    }
+
+    /// Who works in `f64`; the reference is the first.
+    pub fn doubles(&self) -> Field<Segment<f64>> {
+        let mut field = contenders(&self.frustum());
+        let parry = |block, call| enter(ParryBox64::new(block, call));
+        match &self.place {
+            Place::Box(block) => {
+                field.push(parry(block, ParryCall::ClipSegment));
+                field.push(parry(block, ParryCall::LineClamped));
+            }
+            Place::Window(block) => field.push(enter(CohenSutherland2::new(block))),
+            Place::Frustum(camera) if camera.pose.is_identity() => {
+                field.push(parry(&camera.bounds(), ParryCall::BoundingBox));
+            }
+            Place::Frustum(_) => {}
+        }
+        field
+    }
+
+    /// Who works in `f32`; the reference is the first, if anybody does.
+    pub fn singles(&self) -> Field<Segment<f32>> {
+        let mut field = contenders(&self.frustum());
+        let parry = |block, call| enter(ParryBox32::new(block, call));
+        match &self.place {
+            Place::Box(block) => {
+                field.push(parry(block, ParryCall::ClipSegment));
+                field.push(parry(block, ParryCall::LineClamped));
+                if *block == Block::CUBE {
+                    field.push(enter(Prepared::new(cube_matrix())));
+                }
+            }
+            Place::Window(_) => field.clear(),
+            Place::Frustum(camera) => {
+                let matrix = camera.clip_from_world_f32();
+                field.push(enter(Prepared::new(matrix)));
+                field.push(enter(Transformed::new(matrix)));
+                field.push(enter(Slice::new(matrix)));
+                field.push(enter(Attributed::new(matrix)));
+                if camera.pose.is_identity() {
+                    field.push(parry(&camera.bounds(), ParryCall::BoundingBox));
+                }
+            }
+        }
+        field
+    }
+
+    fn counted(&self, effort: &Effort) -> usize {
+        effort.cases(self.source.is_mix())
+    }
+
+    /// Knows the truth.
+    pub fn judge(&self) -> SegmentJudge {
+        SegmentJudge::new(&self.frustum())
+    }
+}
+
+/// Counts for a field, those asked for times only left out.
+fn tallies<C: Case, J: Judge<C>>(
+    judge: &J,
+    cases: &[C],
+    field: impl Fn() -> Field<C> + Sync,
+    step: &(dyn Fn(u64) + Sync),
+) -> Vec<Option<Tally>> {
+    let is_counted = |who: crate::peer::Who| !who.note.contains("times only");
+    let all = count(judge, cases, &field, |n| step(n as u64));
+    let counted = field().into_iter().map(|c| is_counted(c.who()));
+    all.into_iter()
+        .zip(counted)
+        .map(|(tally, counted)| counted.then_some(tally))
+        .collect()
+}
+
+fn load<C: Case + 'static>(mut field: Field<C>, cases: &[C]) -> Vec<Box<dyn Timed>> {
+    field.iter_mut().for_each(|c| c.load(cases));
+    field.into_iter().map(|c| c as Box<dyn Timed>).collect()
+}
+
+/// Where the references are: exact-class V/W in `f64`, and in `f32`.
+fn references(all: &[Box<dyn Timed>]) -> [Option<usize>; 2] {
+    ["f64", "f32"].map(|scalar| {
+        all.iter().position(|c| {
+            let who = c.who();
+            who.function == REFERENCE && who.scalar == scalar
+        })
+    })
+}
+
+fn outcomes(
+    mut all: Vec<Box<dyn Timed>>,
+    tallies: Vec<Option<Tally>>,
+    effort: &Effort,
+    step: &(dyn Fn(u64) + Sync),
+) -> Vec<Outcome> {
+    let references = references(&all);
+    let times = take_turns(&mut all, references, effort.rounds, || step(0));
+    let who = all.iter().map(|c| c.who());
+    who.zip(tallies)
+        .zip(times)
+        .map(|((who, tally), time)| Outcome { who, tally, time })
+        .collect()
+}
+
+impl Contest for Segments {
+    fn job(&self) -> &'static str {
+        self.job
+    }
+
+    fn input(&self) -> &str {
+        &self.input
+    }
+
+    fn steps(&self, effort: &Effort) -> u64 {
+        let scalars = if matches!(self.place, Place::Window(_)) {
+            1
+        } else {
+            2
+        };
+        scalars * self.counted(effort) as u64
+    }
+
+    fn tallies(&self, effort: &Effort, step: &(dyn Fn(u64) + Sync)) -> Vec<Option<Tally>> {
+        let (judge, n) = (self.judge(), self.counted(effort));
+        let cases = self.source.segments::<f64>(effort.seed, n);
+        let mut all = tallies(&judge, &cases, || self.doubles(), step);
+        if !self.singles().is_empty() {
+            let cases = self.source.segments::<f32>(effort.seed, n);
+            all.extend(tallies(&judge, &cases, || self.singles(), step));
+        }
+        all
+    }
+
+    fn loaded(&self, effort: &Effort) -> Vec<Box<dyn Timed>> {
+        let doubles = self.source.segments::<f64>(effort.seed, effort.timed);
+        let singles = self.source.segments::<f32>(effort.seed, effort.timed);
+        let mut all = load(self.doubles(), &doubles);
+        all.extend(load(self.singles(), &singles));
+        all
+    }
+}
+
+/// Boxes or points before a camera.
+#[derive(Clone, Debug)]
+pub struct Boxes {
+    job: &'static str,
+    input: &'static str,
+    camera: Camera,
+    make: fn(&Camera, u64, usize) -> Vec<GridBox>,
+}
+
+impl Boxes {
+    /// Who takes part; frusta with points only, so far.
+    pub fn field(&self) -> Field<GridBox> {
+        let camera = &self.camera;
+        let mut field: Field<GridBox> = vec![
+            enter(PackedSpatialIndex::new(camera)),
+            enter(TreeCuller::new(camera, false)),
+            enter(TreeCuller::new(camera, true)),
+            enter(BevyLoop::new(camera)),
+        ];
+        field.extend(Collision::new(camera).map(enter));
+        if !self.is_without_ours() {
+            field.push(enter(OursPoint::new(&camera.frustum())));
+        }
+        field
+    }
+
+    /// Who looks.
+    pub fn camera(&self) -> &Camera {
+        &self.camera
+    }
+
+    fn truth(&self) -> Truth {
+        Truth::new(&self.camera).expect("the camera's corners are on the grid")
+    }
+
+    fn counted(&self, effort: &Effort) -> usize {
+        effort.cases(self.input != "half-lattice")
+    }
+}
+
+impl Contest for Boxes {
+    fn job(&self) -> &'static str {
+        self.job
+    }
+
+    fn input(&self) -> &str {
+        self.input
+    }
+
+    fn is_without_ours(&self) -> bool {
+        self.job != "cull-point"
+    }
+
+    fn steps(&self, effort: &Effort) -> u64 {
+        self.counted(effort) as u64
+    }
+
+    fn tallies(&self, effort: &Effort, step: &(dyn Fn(u64) + Sync)) -> Vec<Option<Tally>> {
+        let cases = (self.make)(&self.camera, effort.seed, self.counted(effort));
+        tallies(&self.truth(), &cases, || self.field(), step)
+    }
+
+    fn loaded(&self, effort: &Effort) -> Vec<Box<dyn Timed>> {
+        load(
+            self.field(),
+            &(self.make)(&self.camera, effort.seed, effort.timed),
+        )
+    }
+}
+
+/// Axis-parallel quads by the cube.
+#[derive(Clone, Copy, Debug)]
+pub struct Quads;
+
+impl Quads {
+    /// Who takes part.
+    pub fn field(&self) -> Field<Quad> {
+        vec![enter(PlaneSplit::new(&Block::CUBE))]
+    }
+}
+
+impl Contest for Quads {
+    fn job(&self) -> &'static str {
+        "quad-box"
+    }
+
+    fn input(&self) -> &str {
+        "half-lattice"
+    }
+
+    fn is_without_ours(&self) -> bool {
+        true
+    }
+
+    fn steps(&self, effort: &Effort) -> u64 {
+        effort.mix as u64
+    }
+
+    fn tallies(&self, effort: &Effort, step: &(dyn Fn(u64) + Sync)) -> Vec<Option<Tally>> {
+        let cases = quads(effort.seed, effort.mix);
+        tallies(&Block::CUBE, &cases, || self.field(), step)
+    }
+
+    fn loaded(&self, effort: &Effort) -> Vec<Box<dyn Timed>> {
+        load(self.field(), &quads(effort.seed, effort.timed))
+    }
+}
+
+/// The segment contests.
+pub fn segments() -> Vec<Segments> {
+    let mut all = Vec::new();
+    let mut add = |job, input: String, place, source| {
+        all.push(Segments {
+            job,
+            input,
+            place,
+            source,
+        });
+    };
+    let cube = Place::Box(Block::CUBE);
+    let around = Source::AROUND_CUBE;
+    add("segment-box", "half-lattice".into(), cube, around);
+    add("segment-box", "uniform".into(), cube, Source::Uniform);
+    let identity = frusta::Pose::IDENTITY;
+    let block = Block::of_mixes();
+    for mix in Mix::ALL {
+        let source = Source::Mix(mix, identity, None);
+        add("segment-box", mix.name().into(), Place::Box(block), source);
+    }
+    let window = Place::Window(Block::CUBE);
+    let flat = Source::AROUND_WINDOW;
+    add("segment-window", "half-lattice".into(), window, flat);
+    for mix in Mix::ALL {
+        // In one plane across the view, in the middle of the box.
+        let source = Source::Mix(mix, identity, Some(-50.0));
+        let place = Place::Window(block);
+        add("segment-window", mix.name().into(), place, source);
+    }
+    let lattice = Place::Frustum(Camera::LATTICE);
+    let around = Source::AROUND_FRUSTUM;
+    add("segment-frustum", "half-lattice".into(), lattice, around);
+    for (name, pose) in mixes::poses() {
+        let place = Place::Frustum(Camera::of_mixes(pose));
+        for mix in Mix::ALL {
+            let input = match pose.is_identity() {
+                true => mix.name().to_owned(),
+                false => format!("{}, {name}", mix.name()),
+            };
+            add(
+                "segment-frustum",
+                input,
+                place,
+                Source::Mix(mix, pose, None),
+            );
+        }
+    }
+    all
+}
+
+/// The box and point contests.
+pub fn cullings() -> Vec<Boxes> {
+    let contest = |job, input, camera, make| Boxes {
+        job,
+        input,
+        camera,
+        make,
+    };
+    vec![
+        contest("cull-point", "half-lattice", Camera::LATTICE, boxes::points),
+        contest("cull-box", "half-lattice", Camera::LATTICE, boxes::lattice),
+        contest("cull-box", "small", Camera::WIDE, boxes::small),
+        contest("cull-box", "large", Camera::WIDE, boxes::large),
+        contest("cull-box", "small, turned", Camera::TURNED, boxes::small),
+        contest("cull-box", "large, turned", Camera::TURNED, boxes::large),
+    ]
+}
+
+/// All contests, in the order of the table.
+pub fn all() -> Vec<Box<dyn Contest>> {
+    let mut all: Vec<Box<dyn Contest>> = Vec::new();
+    all.extend(
+        segments()
+            .into_iter()
+            .map(|c| Box::new(c) as Box<dyn Contest>),
+    );
+    all.push(Box::new(Quads));
+    all.extend(
+        cullings()
+            .into_iter()
+            .map(|c| Box::new(c) as Box<dyn Contest>),
+    );
+    all
+}

@@ -1,0 +1,222 @@
+//! The file: `README.md` documents its keys.
+
+use crate::contest::{Contest, Effort, Outcome};
+use crate::facts::Fact;
+use crate::machine::Machine;
+use crate::versions::version;
+use serde::Serialize;
+
+/// Everything that a run found.
+#[derive(Clone, Debug, Serialize)]
+pub struct Report {
+    /// Which kind of file this is.
+    pub schema: &'static str,
+    /// Where the times are from.
+    pub machine: Machine,
+    /// What random input was made from.
+    pub seed: u64,
+    /// Rounds that were timed.
+    pub rounds: usize,
+    /// A row for each contestant in each contest.
+    pub rows: Vec<Row>,
+    /// Single inputs that end badly.
+    pub facts: Vec<Fact>,
+    /// Ratios of means over the mixes.
+    pub headlines: Vec<Headline>,
+    /// What is unfair about all of it.
+    pub bias: &'static str,
+}
+
+/// What one contestant did in one contest.
+#[derive(Clone, Debug, Serialize)]
+pub struct Row {
+    /// What had to be done.
+    pub job: &'static str,
+    /// The crate.
+    pub library: &'static str,
+    /// Its version, from `Cargo.lock`.
+    pub version: &'static str,
+    /// What of it was called.
+    pub function: &'static str,
+    /// In which numbers.
+    pub scalar: &'static str,
+    /// On what.
+    pub input: String,
+    /// How many answers were judged; null if none.
+    pub cases: Option<u64>,
+    /// Median nanoseconds a case; null if there is nothing to time.
+    pub ns_median: Option<f64>,
+    /// Times the time of exact-class V/W in `f64`, median over rounds.
+    pub time_ratio: Option<f64>,
+    /// Its lower and upper quartile over rounds.
+    pub time_ratio_quartiles: Option<[f64; 2]>,
+    /// Times the time of exact-class V/W in `f32`, median over rounds.
+    pub time_ratio_f32: Option<f64>,
+    /// Wrong answers: phantom, missed, misplaced and refused.
+    pub wrong: Option<u64>,
+    /// Hits where there is nothing.
+    pub phantom: Option<u64>,
+    /// Nothing where there is a hit.
+    pub missed: Option<u64>,
+    /// Hits, rightly, with an end that is outside, exactly.
+    pub outside: Option<u64>,
+    /// Hits, rightly, with an end in a wrong place.
+    pub misplaced: Option<u64>,
+    /// Errors and numbers that are not finite.
+    pub refused: Option<u64>,
+    /// The largest error of an end, in unit roundoffs of the largest coordinate; null where
+    /// no end was computed.
+    pub max_error_u_scale: Option<f64>,
+    /// What one must know of it.
+    pub note: &'static str,
+}
+
+/// A ratio of times over several inputs.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Headline {
+    /// Which ratio.
+    pub what: String,
+    /// The geometric mean over the mixes.
+    pub ratio: f64,
+    /// The least over the mixes.
+    pub least: f64,
+}
+
+/// The schema's name.
+pub const SCHEMA: &str = "frusta-peers/1";
+
+/// Our bias, in words.
+pub const BIAS: &str = "We wrote frusta, and we chose the jobs, the inputs and what right means: \
+closed sets, touching included, decided exactly. None of the peers promises that. parry clips by \
+axis-aligned boxes, for physics; retrofire clips what it draws, in f32 clip space; line-clipping \
+draws in terminals; plane-split orders quads for a compositor; the cullers are meant to say yes \
+too often. The half-integer lattice is where plain arithmetic fails most, which is why it is \
+there, beside mixes where it hardly fails. Everybody is called for one case at a time (retrofire \
+also for slices), with planes, matrices and types prepared; peers that work in f32 get frusta's \
+f32 beside its f64. Most clipped ends of everybody are outside by a rounding: that is counted, \
+and not called wrong.";
+
+impl Row {
+    /// Of a contestant.
+    pub fn new(contest: &dyn Contest, outcome: &Outcome) -> Self {
+        let Outcome { who, tally, time } = outcome;
+        let is_computed = |error: &f64| *error > 0.0;
+        Self {
+            job: contest.job(),
+            library: who.library,
+            version: version(who.library).unwrap_or_default(),
+            function: who.function,
+            scalar: who.scalar,
+            input: contest.input().to_owned(),
+            cases: tally.map(|t| t.cases),
+            ns_median: Some(time.nanoseconds),
+            time_ratio: time.ratios[0].map(|[_, median, _]| median),
+            time_ratio_quartiles: time.ratios[0].map(|[low, _, high]| [low, high]),
+            time_ratio_f32: time.ratios[1].map(|[_, median, _]| median),
+            wrong: tally.map(|t| t.wrong()),
+            phantom: tally.map(|t| t.phantom),
+            missed: tally.map(|t| t.missed),
+            outside: tally.map(|t| t.outside),
+            misplaced: tally.map(|t| t.misplaced),
+            refused: tally.map(|t| t.refused),
+            max_error_u_scale: tally.map(|t| t.max_error).filter(is_computed),
+            note: who.note,
+        }
+    }
+
+    /// Of frusta, where it cannot do the job yet.
+    pub fn not_built(contest: &dyn Contest) -> Self {
+        Self {
+            job: contest.job(),
+            library: "frusta",
+            version: version("frusta").unwrap_or_default(),
+            function: "not built yet",
+            scalar: "",
+            input: contest.input().to_owned(),
+            cases: None,
+            ns_median: None,
+            time_ratio: None,
+            time_ratio_quartiles: None,
+            time_ratio_f32: None,
+            wrong: None,
+            phantom: None,
+            missed: None,
+            outside: None,
+            misplaced: None,
+            refused: None,
+            max_error_u_scale: None,
+            note: "ours: not built yet",
+        }
+    }
+
+    /// Whether it is frusta's exact tier.
+    pub fn is_exact_tier(&self) -> bool {
+        self.library == "frusta" && (self.function.contains("exact") || self.job == "cull-point")
+    }
+}
+
+/// The peers' times over exact-class V/W's, in means over the mixes.
+pub fn headlines(rows: &[Row]) -> Vec<Headline> {
+    let ratios = |job: &str, function: &str, library: &str, single: bool| -> Vec<f64> {
+        let is_mix = |row: &&Row| !matches!(&row.input[..], "half-lattice" | "uniform");
+        let is_it = |row: &&Row| (row.job, row.function, row.library) == (job, function, library);
+        let own = |row: &Row| {
+            if single {
+                row.time_ratio_f32
+            } else {
+                row.time_ratio
+            }
+        };
+        let found = rows.iter().filter(is_it).filter(is_mix);
+        found.filter_map(own).collect()
+    };
+    let (clip, bounds) = ("Aabb::clip_segment", "clip_segment, bounding box");
+    let transform = "transform + clip";
+    let (slices, positions) = ("transform + clip, slices", "transform + clip, positions");
+    let mut all = Vec::new();
+    for (job, function, library) in [
+        ("segment-box", clip, "parry3d-f64"),
+        ("segment-box", clip, "parry3d"),
+        ("segment-frustum", bounds, "parry3d-f64"),
+        ("segment-frustum", bounds, "parry3d"),
+        ("segment-frustum", transform, "retrofire-core"),
+        ("segment-frustum", slices, "retrofire-core"),
+        ("segment-frustum", positions, "retrofire-core"),
+        (
+            "segment-window",
+            "cohen_sutherland::clip_line",
+            "line-clipping",
+        ),
+    ] {
+        for (single, ours) in [(false, "f64"), (true, "f32")] {
+            let ratios = ratios(job, function, library, single);
+            if ratios.is_empty() {
+                continue;
+            }
+            let logs: f64 = ratios.iter().map(|r| r.ln()).sum();
+            all.push(Headline {
+                what: format!("{job}: {library} {function} / exact V/W {ours}"),
+                ratio: (logs / ratios.len() as f64).exp(),
+                least: ratios.iter().copied().fold(f64::INFINITY, f64::min),
+            });
+        }
+    }
+    all
+}
+
+impl Report {
+    /// From what was found.
+    pub fn new(effort: &Effort, rows: Vec<Row>, facts: Vec<Fact>) -> Self {
+        let headlines = headlines(&rows);
+        Self {
+            schema: SCHEMA,
+            machine: Machine::this(),
+            seed: effort.seed,
+            rounds: effort.rounds,
+            rows,
+            facts,
+            headlines,
+            bias: BIAS,
+        }
+    }
+}

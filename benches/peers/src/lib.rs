@@ -1,0 +1,35 @@
+//! Other libraries' clipping and culling beside frusta's: the same jobs on the same
+//! input, their times, and their wrong answers, counted by frusta's oracle.
+//!
+//! - [`peer`]: what a library must do to take part
+//! - [`scene`]: the frusta and the matrices that describe them to the others
+//! - [`segments`], [`quads`], [`boxes`]: the jobs, a file a library
+//! - [`tally`]: wrong answers, counted
+//! - [`turns`]: times, taken in turns
+//! - [`contest`]: which jobs on which inputs
+//! - [`facts`]: single inputs that end badly, each in a process of its own
+//! - [`file`](mod@file), [`table`], [`versions`], [`machine`]: what comes out
+//!
+//! `README.md` says what is fair about it and what is not.
+
+pub mod boxes;
+pub mod contest;
+pub mod facts;
+pub mod file;
+pub mod machine;
+pub mod peer;
+pub mod quads;
+pub mod scene;
+pub mod segments;
+pub mod table;
+pub mod tally;
+pub mod turns;
+pub mod versions;
+
+#[path = "../../mixes/mod.rs"]
+#[expect(
+    dead_code,
+    unused_imports,
+    reason = "frusta's own benchmarks need more of it"
+)]
+mod mixes;

@@ -1,0 +1,119 @@
+//! `frusta-peers [--quick] [--seed N] [--out FILE]`: everybody does the same jobs; a table, and
+//! a file for `frusta report --peers FILE`.
+
+use clap::Parser;
+use frusta_peers::contest::{self, Effort};
+use frusta_peers::file::{Report, Row};
+use frusta_peers::{facts, table};
+use indicatif::{ProgressBar, ProgressStyle};
+use std::fs::File;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+/// Other libraries' clipping and culling beside frusta's, on the same input.
+#[derive(Parser)]
+#[command(version)]
+struct Args {
+    /// Few cases and rounds: to see that it works.
+    #[arg(long)]
+    quick: bool,
+    /// What random input is made from.
+    #[arg(long, default_value_t = Effort::FULL.seed)]
+    seed: u64,
+    /// Where the file goes.
+    #[arg(long, value_name = "FILE")]
+    out: Option<PathBuf>,
+    /// Answers one hostile input; asked by this program itself.
+    #[arg(long, hide = true)]
+    fact: Option<usize>,
+}
+
+fn main() -> ExitCode {
+    match run(&Args::parse()) {
+        Ok(()) => ExitCode::SUCCESS,
+        // Whoever closed the pipe knows why.
+        Err(error) if error.kind() == io::ErrorKind::BrokenPipe => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("frusta-peers: {error}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn run(args: &Args) -> io::Result<()> {
+    let mut out = io::stdout();
+    if let Some(number) = args.fact {
+        let answer = facts::answer(number);
+        let answer = answer.ok_or_else(|| io::Error::other("no such input"))?;
+        return writeln!(out, "{answer}");
+    }
+    let effort = Effort {
+        seed: args.seed,
+        ..if args.quick {
+            Effort::QUICK
+        } else {
+            Effort::FULL
+        }
+    };
+    let failed = |path: &Path, e| io::Error::other(format!("{}: {e}", path.display()));
+    if let Some(path) = &args.out {
+        // Now, not after minutes.
+        let opened = File::options().append(true).create(true).open(path);
+        opened.map_err(|e| failed(path, e))?;
+    }
+    writeln!(out, "{}", table::heading())?;
+    let rows = contests(&effort, &mut out)?;
+    let facts = facts::ask(&std::env::current_exe()?);
+    let report = Report::new(&effort, rows, facts);
+    conclude(&report, &mut out)?;
+    if let Some(path) = &args.out {
+        let text = serde_json::to_string_pretty(&report)?;
+        std::fs::write(path, text + "\n").map_err(|e| failed(path, e))?;
+    }
+    let wrong = report.rows.iter().filter(|row| row.is_exact_tier());
+    match wrong.filter_map(|row| row.wrong).sum() {
+        0_u64 => Ok(()),
+        n => Err(io::Error::other(format!(
+            "{n} wrong answers of the exact tier"
+        ))),
+    }
+}
+
+/// Runs all contests and prints their rows as they come.
+fn contests(effort: &Effort, out: &mut impl Write) -> io::Result<Vec<Row>> {
+    let all = contest::all();
+    let steps = all.iter().map(|c| c.steps(effort)).sum();
+    let style = ProgressStyle::with_template("{wide_bar} {percent:>3} % {eta:>4} left {msg}");
+    let bar = ProgressBar::new(steps).with_style(style.map_err(io::Error::other)?);
+    let mut rows = Vec::new();
+    for contest in &all {
+        bar.set_message(format!("{}: {}", contest.job(), contest.input()));
+        let outcomes = contest.run(effort, &|n| bar.inc(n));
+        let mut own: Vec<Row> = outcomes.iter().map(|o| Row::new(&**contest, o)).collect();
+        if contest.is_without_ours() {
+            own.push(Row::not_built(&**contest));
+        }
+        bar.suspend(|| {
+            writeln!(out, "{}", table::title(&own[0]))?;
+            own.iter()
+                .try_for_each(|row| writeln!(out, "{}", table::line(row)))
+        })?;
+        rows.extend(own);
+    }
+    bar.finish_and_clear();
+    Ok(rows)
+}
+
+fn conclude(report: &Report, out: &mut impl Write) -> io::Result<()> {
+    writeln!(out, "\ninputs that end badly")?;
+    for fact in &report.facts {
+        writeln!(out, "{}", table::fact(fact))?;
+    }
+    let title = "times over exact-class V/W's, over the mixes";
+    writeln!(out, "\n{title:<86} {:>5} {:>5}", "mean", "least")?;
+    for headline in &report.headlines {
+        writeln!(out, "{}", table::headline(headline))?;
+    }
+    writeln!(out, "\n{}", report.bias)
+}

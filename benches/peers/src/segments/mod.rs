@@ -1,0 +1,59 @@
+//! Segments: clipped by a box, by a window, by a perspective frustum.
+
+mod line_clipping;
+mod ours;
+mod parry;
+mod retrofire;
+
+pub use line_clipping::CohenSutherland2;
+pub use ours::{Ours, REFERENCE, contenders, reference};
+pub use parry::{ParryBox32, ParryBox64, ParryCall};
+pub use retrofire::{Attributed, Prepared, Slice, Transformed, cube_matrix};
+
+use crate::peer::Case;
+use frusta::{Real, Segment, Vec3};
+
+/// What a library says of a segment.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Found<T> {
+    /// It has nothing inside.
+    Nothing,
+    /// What of it is inside.
+    Part([FoundEnd<T>; 2]),
+    /// An error, or a number that is not finite.
+    Refused,
+}
+
+/// One end of what is inside.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FoundEnd<T> {
+    /// Where.
+    pub point: Vec3<T>,
+    /// Whether it is the segment's own end, bit for bit.
+    pub kept: bool,
+    /// Whether it is inside, where the library's answer is in other coordinates than the
+    /// world's and says so exactly.
+    pub inside: Option<bool>,
+}
+
+impl<T: Real> Case for Segment<T> {
+    type Answer = Found<T>;
+}
+
+/// An answer that consists of two points in the world.
+fn part<T: Real>(segment: &Segment<T>, points: [[T; 3]; 2]) -> Found<T> {
+    let ends = [segment.start, segment.end];
+    let found = [0, 1].map(|i| {
+        let point = Vec3::from(points[i]);
+        FoundEnd {
+            point,
+            kept: point == ends[i],
+            inside: None,
+        }
+    });
+    if found.iter().all(|end| end.point.is_finite()) {
+        Found::Part(found)
+    } else {
+        Found::Refused
+    }
+}
