@@ -75,11 +75,14 @@ fn cases() -> Vec<Case> {
     all
 }
 
-/// What is counted: an algorithm in a tier, over one half of a case's segments.
+/// Clips one half of a case's segments.
+type Run = Box<dyn Fn(&Case, usize)>;
+
+/// What is counted: an algorithm in a tier.
 struct Row {
     algorithm: &'static str,
     tier: &'static str,
-    run: Box<dyn Fn(&Case, usize)>,
+    run: Run,
 }
 
 /// One pass over a half.
