@@ -18,13 +18,13 @@
 //! |g~ - g| <= 9.2 u scale, plus underflow, which [`FLOOR`] covers.
 //! With the identity pose 5.1 u scale. `proofs/filter.gappa` proves both.
 //!
-//! The double-double values of [`super::precise`] are within 51.2 u^2 scale; the
+//! The double-double values of [`super::precise`] are within 47.2 u^2 scale; the
 //! count is there. The code allows for 60.
 //!
 //! The *threshold* is T = 2^-46 scale + FLOOR = 128 u scale + FLOOR. So
 //! |g~| > T means:
 //! - the sign of g~ is the sign of g, with a factor of 13 to spare;
-//! - the double-double value has a relative error below u / 2: 51.2 u^2 of
+//! - the double-double value has a relative error below u / 2: 47.2 u^2 of
 //!   (128 - 9.2) u, where 60 would be 0.505 u (`proofs/threshold.gappa`).
 //!
 //! T is evaluated as `const + factor * S`, its rounding covered by that factor.
