@@ -2,11 +2,9 @@
 
 pub(crate) mod answers;
 mod timed;
-mod turns;
 
 pub(crate) use answers::{assert_answers_agree, assert_exact_agree, wrong_answers};
 pub(crate) use timed::{call, form_cases, singular};
-pub(crate) use turns::{Pass, take_turns};
 
 use frusta::samples::{Placement, Random, Solid, singular_samples};
 use frusta::{Direction, EndRect, Frustum, Pose, Real, Rect, Segment, Shape, Vec3};
@@ -172,9 +170,14 @@ impl Mix {
 
     /// The segments, carried from the frame to the world of the pose.
     pub(crate) fn segments<T: Real>(self, pose: &Pose) -> Vec<Segment<T>> {
+        self.first(COUNT, pose)
+    }
+
+    /// The first so many of them.
+    pub(crate) fn first<T: Real>(self, count: usize, pose: &Pose) -> Vec<Segment<T>> {
         let mut random = Random::new(&[self as u64]);
         let to_world = |v| Vec3::from_f64(pose.to_world(v));
-        (0..COUNT)
+        (0..count)
             .map(|_| {
                 let s = segment(&mut random, self);
                 Segment::new(to_world(s.start), to_world(s.end))

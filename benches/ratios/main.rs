@@ -8,6 +8,7 @@
 #[path = "../mixes/mod.rs"]
 mod mixes;
 mod slices;
+mod turns;
 
 use frusta::{
     Accuracy, CohenSutherland, CyrusBeck, Frustum, LiangBarsky, LiangBarskyVariant, Pose, Real,

@@ -4,7 +4,8 @@
 //! and rigorous error bounds for basic building blocks of double-word
 //! arithmetic" (2017), with u = 2^-53: `add` 3 u^2 + 13 u^3, `mul` 7 u^2,
 //! `mul_f64` 3 u^2, `div` 15 u^2 + 56 u^3, each relative to the result,
-//! wherever nothing overflows or underflows.
+//! wherever nothing overflows or underflows. `div` forms its remainder by `add`,
+//! no less precisely than theirs; `proofs/double_double.gappa` has its bound.
 
 use super::float::{fast_two_sum, two_diff, two_prod, two_sum};
 

@@ -16,15 +16,16 @@
 //! u (|z| + |z_near|), the rounded slope u, the product u, the two sums
 //! u (|n| + |m w|) and u |g|. Added up:
 //! |g~ - g| <= 9.2 u scale, plus underflow, which [`FLOOR`] covers.
-//! With the identity pose 5.1 u scale.
+//! With the identity pose 5.1 u scale. `proofs/filter.gappa` proves both.
 //!
-//! The double-double values of [`super::precise`] are within 60 u^2 scale; the
-//! count is there.
+//! The double-double values of [`super::precise`] are within 47.2 u^2 scale; the
+//! count is there. The code allows for 60.
 //!
 //! The *threshold* is T = 2^-46 scale + FLOOR = 128 u scale + FLOOR. So
 //! |g~| > T means:
 //! - the sign of g~ is the sign of g, with a factor of 13 to spare;
-//! - the double-double value has a relative error below u / 2.
+//! - the double-double value has a relative error below u / 2: 47.2 u^2 of
+//!   (128 - 9.2) u, where 60 would be 0.505 u (`proofs/threshold.gappa`).
 //!
 //! T is evaluated as `const + factor * S`, its rounding covered by that factor.
 //! The comparison is written with `>`, so that NaN and infinity fail it.

@@ -27,7 +27,7 @@
 //! rests        of products 3 + 3, of sums 2, with d_low 1, all together 3 + 6  18 Y, 6 K
 //! d            the slope 15, times z_near 3, minus at 3         21 |m z_near|, 3 |at|
 //! ```
-//! Both are below 47 u^2 scale; what relies on it counts with 60.
+//! Both are below 47.2 u^2 scale (`proofs/precise.gappa`); what relies on it counts with 60.
 
 use super::Shape;
 use crate::exact::double_double::Dd;

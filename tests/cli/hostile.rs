@@ -356,3 +356,18 @@ fn too_many_threads_are_refused() {
     }
     assert!(done > 0 && refused > 0, "{done} {refused}");
 }
+
+/// Found by the fuzz target `read_geojson`: a message was cut to a length before
+/// its control characters became escapes of six characters each.
+#[test]
+fn escapes_do_not_make_a_message_long() {
+    let folder = Folder::new();
+    let kind = "\u{7f}".repeat(200);
+    let content = format!("{{\"type\": \"{kind}\", \"coordinates\": []}}\n");
+    let file = folder.write("a.geojson", content);
+    let output = clip([file.as_str()]);
+    assert_eq!(output.status.code(), Some(2));
+    let message = text(&output.stderr);
+    assert!(message.contains("not GeoJSON"), "{message}");
+    assert!(message.len() <= 350 + file.len(), "{}", message.len());
+}

@@ -47,7 +47,8 @@ pub(crate) fn quote(text: &str) -> String {
 pub(crate) fn shorten(why: impl Display) -> String {
     const HEAD: usize = 80;
     const TAIL: usize = 200;
-    let why = why.to_string();
+    // Escaped before it is measured: a control character becomes six.
+    let why = one_line(&why.to_string());
     let count = why.chars().count();
     if count <= HEAD + TAIL {
         return why;

@@ -31,7 +31,8 @@ pub(crate) fn read(file: &Path) -> Result<(Frustum, Option<Deviation>), Failure>
     from_text(file, &text)
 }
 
-fn from_text(file: &Path, text: &[u8]) -> Result<(Frustum, Option<Deviation>), Failure> {
+/// The same from a file's bytes.
+pub(crate) fn from_text(file: &Path, text: &[u8]) -> Result<(Frustum, Option<Deviation>), Failure> {
     if text.len() as u64 > LONGEST {
         let why = format!("it is longer than {LONGEST} bytes; is this a frustum?");
         return Err(Failure::in_file(file, why));

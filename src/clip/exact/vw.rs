@@ -21,7 +21,7 @@
 //! three bits at most 7 units of 2 u. The code takes a whole threshold for e,
 //! which is 13 times what the values can be off, and 2^-48 = 32 u. Near and far
 //! values of the identity pose have a relative error of u instead, which moves
-//! t by u / 2 at most.
+//! t by u / 2 at most. `proofs/crossing.gappa` has these bounds.
 
 use super::decide::{At, Decision};
 use super::pair::{self, Ends};

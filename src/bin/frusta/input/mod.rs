@@ -4,7 +4,7 @@
 //! GeoJSON and, if asked for, OBJ lines stay a stream.
 
 pub(crate) mod csv;
-#[cfg(test)]
+#[cfg(any(test, fuzzing))]
 pub(crate) mod damaged;
 mod edges;
 pub(crate) mod geojson;

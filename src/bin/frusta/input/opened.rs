@@ -31,8 +31,8 @@ pub(crate) struct Input {
     pub(crate) format: Format,
     /// How many bytes have been read.
     read: Arc<AtomicU64>,
-    /// A test's bytes.
-    #[cfg(test)]
+    /// Bytes of a test or a fuzz target.
+    #[cfg(any(test, fuzzing))]
     content: Option<Arc<[u8]>>,
 }
 
@@ -63,14 +63,14 @@ impl Input {
             piped: standard || file.metadata().is_ok_and(|m| !m.is_file() && !m.is_dir()),
             format,
             read: Arc::default(),
-            #[cfg(test)]
+            #[cfg(any(test, fuzzing))]
             content: None,
         })
     }
 
     /// These bytes instead of a file.
-    #[cfg(test)]
-    pub(super) fn of_bytes(name: &str, content: &[u8], piped: bool) -> Self {
+    #[cfg(any(test, fuzzing))]
+    pub(crate) fn of_bytes(name: &str, content: &[u8], piped: bool) -> Self {
         Self {
             content: Some(content.into()),
             piped,
@@ -90,7 +90,7 @@ impl Input {
 
     /// How many bytes there are, of a file.
     pub(crate) fn size(&self) -> Option<u64> {
-        #[cfg(test)]
+        #[cfg(any(test, fuzzing))]
         if let Some(content) = self.content.as_ref().filter(|_| !self.piped) {
             return Some(content.len() as u64);
         }
@@ -131,7 +131,7 @@ impl Input {
     }
 
     fn source(&self) -> Result<Box<dyn Read + Send>, Failure> {
-        #[cfg(test)]
+        #[cfg(any(test, fuzzing))]
         if let Some(content) = &self.content {
             return Ok(Box::new(io::Cursor::new(Arc::clone(content))));
         }

@@ -1,0 +1,7 @@
+//! CSV rows, in both precisions, as the command reads them: read or refused.
+
+#![no_main]
+
+use libfuzzer_sys::fuzz_target;
+
+fuzz_target!(|data: &[u8]| frusta_fuzz_readers::read_csv(data));

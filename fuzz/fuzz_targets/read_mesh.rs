@@ -1,0 +1,7 @@
+//! OBJ, STL and PLY, as the command reads them: read or refused.
+
+#![no_main]
+
+use libfuzzer_sys::fuzz_target;
+
+fuzz_target!(|data: &[u8]| frusta_fuzz_readers::read_mesh(data));
