@@ -14,11 +14,10 @@ use frusta::{
     Accuracy, CohenSutherland, CyrusBeck, Frustum, LiangBarsky, LiangBarskyVariant, Pose, Real,
     Segment, SegmentClipper, SixPlanes, VwProjection,
 };
-use mixes::{
-    COUNT, Form, Mix, Pass, assert_answers_agree, call, form_cases, frustum, poses, take_turns,
-};
+use mixes::{COUNT, Form, Mix, assert_answers_agree, call, form_cases, frustum, poses};
 use std::hint::black_box;
 use std::time::Instant;
+use turns::{Pass, take_turns};
 
 /// Times one pass over the segments, in nanoseconds each.
 fn pass<T: Real>(clipper: impl SegmentClipper<T>, frustum: &Frustum, all: &[Segment<T>]) -> f64 {

@@ -5,7 +5,8 @@
 //! the clips while they are in the cache. The clippers take turns; medians over
 //! rounds. Every answer of a slice is compared with that of the segment alone first.
 
-use crate::mixes::{self, Form, Mix, Pass, frustum, poses, take_turns};
+use crate::mixes::{self, Form, Mix, frustum, poses};
+use crate::turns::{Pass, take_turns};
 use frusta::{
     Accuracy, Frustum, LiangBarsky, LiangBarskyVariant, Real, Segment, SegmentClip, SegmentClipper,
     VwProjection,

@@ -263,10 +263,10 @@ where
     let mut bit = one;
     for i in 0..6 {
         if L::FAR || i != 1 {
-            entered = entered + enter[i].simd_ge(t0).select(bit, zero);
-            left = left + leave[i].simd_le(t1).select(bit, zero);
+            entered += enter[i].simd_ge(t0).select(bit, zero);
+            left += leave[i].simd_le(t1).select(bit, zero);
         }
-        bit = bit + bit;
+        bit += bit;
     }
     let d = Vec3::new(q.x - p.x, q.y - p.y, q.z - p.z);
     let first = [
