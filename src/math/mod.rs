@@ -13,9 +13,11 @@ mod vec3;
 
 pub use interval::Interval;
 pub use pose::Pose;
+pub(crate) use real::PerReal;
 pub use real::Real;
+#[cfg(feature = "report")]
+pub(crate) use real::Sealed;
 pub(crate) use real::Short;
-pub(crate) use real::{PerReal, Sealed};
 pub use rect::Rect;
 pub use segment::{End, NonFinite, NonFiniteAt, Segment};
 pub use vec3::{Axis, Vec3};

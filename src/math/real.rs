@@ -49,7 +49,9 @@ mod sealed {
     }
 }
 
-pub(crate) use sealed::{PerReal, Sealed};
+pub(crate) use sealed::PerReal;
+#[cfg(feature = "report")]
+pub(crate) use sealed::Sealed;
 
 /// A scalar of a point: `f32` or `f64`. Sealed.
 pub trait Real:

@@ -3,9 +3,11 @@
 
 use super::Chunk;
 use super::lanes::{Quad, ends};
+use super::lattice;
 use super::points::Parts;
 use super::queue::{Crossed, Queues};
 use crate::clip::exact::{self, vw::ROUNDING};
+use crate::clip::plain::outside;
 use crate::clip::{Accuracy, StageCounts};
 use crate::frustum::Layout;
 use crate::frustum::filter::Filter;
@@ -23,9 +25,9 @@ pub(super) struct Run<'a, S, T> {
 }
 
 /// The six boundary values at both ends of four segments, sizes and thresholds.
-struct Values<S: Simd> {
-    a: [f64x4<S>; 6],
-    b: [f64x4<S>; 6],
+pub(super) struct Values<S: Simd> {
+    pub(super) a: [f64x4<S>; 6],
+    pub(super) b: [f64x4<S>; 6],
     sizes: [f64x4<S>; 2],
     depth: f64x4<S>,
     side: f64x4<S>,
@@ -201,6 +203,7 @@ impl<S: Simd, T: Real> Run<'_, S, T> {
         self.queues.clear();
         self.triage::<L>();
         if self.accuracy == Accuracy::Fast {
+            self.lattice::<L>();
             self.certify::<L>();
             self.construct();
         }
@@ -231,27 +234,63 @@ impl<S: Simd, T: Real> Run<'_, S, T> {
         let [p, q] = ends(group);
         let (p, q) = (self.quad.points(p), self.quad.points(q));
         let values = Values::new::<L>(filter, p, q);
-        let [outside, inside, crossing] = values.triage();
-        let settled = (outside | inside).to_bitmask();
-        let mut inside = inside.to_bitmask() & present;
+        let [beyond, inside, crossing] = values.triage();
+        let settled = (beyond | inside).to_bitmask();
+        let inside = inside.to_bitmask() & present;
         let mut crossing = crossing.to_bitmask() & present;
+        let mut lattice = 0;
         if self.accuracy != Accuracy::Fast {
             // Points are constructed elsewhere.
             crossing = 0;
         } else if let Some((round, limit)) = filter.lattice() {
             let small = values.sizes[0].simd_lt(limit) & values.sizes[1].simd_lt(limit);
-            let lattice = small & on_grid(round, p) & on_grid(round, q);
-            let lattice = lattice.to_bitmask() & present;
-            // Those that are settled are counted here, the rest where it is.
+            let on = small & on_grid(round, p) & on_grid(round, q);
+            lattice = on.to_bitmask() & present;
+            // Those that are settled are counted here, the rest when they are.
             self.counts.lattice += u64::from((lattice & settled).count_ones());
+            lattice &= !settled;
             crossing &= !lattice;
         }
-        inside &= settled;
-        let unsure = present & !(settled | crossing);
+        let unsure = present & !(settled | crossing | lattice);
         let items = [0, 1, 2, 3].map(|j| (base + j) as u32);
         self.queues.inside.append(items, inside);
         self.queues.crossing.append(items, crossing);
+        self.queues.lattice.append(items, lattice);
         self.queues.unsure.append(items, unsure);
+    }
+
+    /// What plain arithmetic clips without an error.
+    #[inline(always)]
+    fn lattice<L: Layout>(&mut self) {
+        let Queues {
+            lattice, unsure, ..
+        } = &mut *self.queues;
+        let Chunk {
+            frustum,
+            segments,
+            clips,
+        } = &mut self.chunk;
+        let filter = frustum.filter();
+        let mut nowhere = outside();
+        for (items, count) in lattice.groups::<4>() {
+            let [p, q] = ends(items.map(|i| &segments[i as usize]));
+            let (p, q) = (self.quad.points(p), self.quad.points(q));
+            let values = Values::new::<L>(filter, p, q);
+            let found = lattice::Clips::new(self.quad, filter, &values, p, q);
+            let present = 0xf >> (4 - count);
+            // What has no length is clipped, and counted, alone.
+            unsure.append(items, found.still & present);
+            self.counts.lattice += u64::from((present & !found.still).count_ones());
+            for (j, item) in items.into_iter().enumerate() {
+                // A pointer is chosen without a branch.
+                let place = if (found.outside | found.still) >> j & 1 != 0 {
+                    &mut nowhere
+                } else {
+                    &mut clips[item as usize]
+                };
+                *place = found.clip(j);
+            }
+        }
     }
 
     /// What certainly has ends on both sides of some faces.

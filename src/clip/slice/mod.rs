@@ -6,7 +6,8 @@
 //!     all are outside, until something else is known
 //!     triage    four at a time: the boundary values at both ends, and what their
 //!               signs prove; the numbers of the rest go to queues: inside,
-//!               crossing, unsure
+//!               lattice, crossing, unsure
+//!     lattice   four at a time, what is so coarse that nothing is rounded
 //!     crossing  four at a time from the queue: crossing parameters of all faces,
 //!               their latest entry and earliest exit; what is certain goes to a
 //!               queue with its two faces, the rest to the unsure
@@ -34,6 +35,7 @@
 
 mod exact;
 mod lanes;
+mod lattice;
 mod plain;
 mod points;
 mod queue;

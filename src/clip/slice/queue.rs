@@ -61,6 +61,8 @@ pub(super) struct Queues {
     pub(super) crossing: Queue,
     /// With certain crossings: the number, then [`Crossed`].
     pub(super) crossed: Queue,
+    /// On the lattice, not settled by certain signs.
+    pub(super) lattice: Queue,
     /// To be clipped alone.
     pub(super) unsure: Queue,
 }
@@ -71,6 +73,7 @@ impl Queues {
             inside: Queue::new(),
             crossing: Queue::new(),
             crossed: Queue::new(),
+            lattice: Queue::new(),
             unsure: Queue::new(),
         }
     }
@@ -80,6 +83,7 @@ impl Queues {
             &mut self.inside,
             &mut self.crossing,
             &mut self.crossed,
+            &mut self.lattice,
             &mut self.unsure,
         ] {
             queue.len = 0;
