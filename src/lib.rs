@@ -4,7 +4,8 @@
 //! |---|---|
 //! | [`math`] | points, segments, rectangles, poses |
 //! | [`frustum`] | [`Frustum`] and its constructors: [`Camera`], [`ViewProjection`], [`SixPoints`] |
-//! | [`clip`] | [`Frustum::clip_segment`], and the algorithms behind [`SegmentClipper`] |
+//! | [`clip`] | [`Frustum::clip_segment`], [`Frustum::clip_segments`], and the algorithms behind [`SegmentClipper`] |
+//! | [`guarantees`] | a page: what is guaranteed, and how it is known |
 //! | [`samples`] | the 78 singular samples, and seeded families of hard cases |
 //! | `oracle` | (feature `oracle`) the truth by rational arithmetic |
 //! | `report` | (feature `report`) measuring and verifying |
@@ -45,7 +46,7 @@
 //! - **G5** the swapped result for swapped ends, bit for bit;
 //! - **G6** `Inward` results, `inward` at both ends, that clip to themselves;
 //! - **G8** the same bits with every algorithm, on every platform and number of
-//!   threads, with SIMD or without: no fused multiply-add is used.
+//!   threads, one by one or in slices, with SIMD or without.
 //!
 //! (**G7**, how far an `Inward` end could still move outwards, is measured, not
 //! promised.) A coordinate that is not finite is an error, never a panic.
