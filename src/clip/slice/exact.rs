@@ -214,7 +214,7 @@ impl<S: Simd, T: Real> Run<'_, S, T> {
         self.unsure()
     }
 
-    /// All segments, four at a time; the last four may overlap others.
+    /// All segments, four at a time; the last group is filled up with its last one.
     #[inline(always)]
     fn triage<L: Layout>(&mut self) {
         let (groups, rest) = self.chunk.segments.as_chunks::<4>();

@@ -43,7 +43,7 @@ mod queue;
 use super::result::{Accuracy, SegmentClip, StageCounts};
 use crate::frustum::{Form, Frustum, General, PlainFrustum, Symmetric};
 use crate::math::{NonFiniteAt, PerReal, Real, Segment};
-use fearless_simd::{Level, Simd, f32x8, f64x4};
+use fearless_simd::{Level, Simd};
 use queue::{CHUNK, Queues};
 
 /// Runs what is generic over the vector width. On x86 with one of two: more than
@@ -86,12 +86,10 @@ pub(crate) fn clip_exact<T: Real>(
     counts: &mut StageCounts,
 ) -> Result<(), NonFiniteAt> {
     let mut queues = Queues::new();
-    in_chunks(
-        frustum,
-        segments,
-        clips,
-        |chunk| at_width!(level, simd => exact_chunk(simd, chunk, accuracy, &mut queues, counts)),
-    )
+    in_chunks(frustum, segments, clips, |chunk| {
+        let (queues, counts) = (&mut queues, &mut *counts);
+        at_width!(level, simd => exact_chunk(simd, chunk, accuracy, queues, counts))
+    })
 }
 
 /// Clips by plain V/W. On an error `clips` is empty.
@@ -105,7 +103,7 @@ pub(crate) fn clip_plain<T: Real>(
     let kernel = T::pick(&PlainKernels);
     in_chunks(frustum, segments, clips, |chunk| {
         match (kernel, frustum.plain()) {
-            (Some(PlainKernel(kernel)), Some(plain)) => kernel(level, chunk, plain, &mut queues),
+            (Some(kernel), Some(plain)) => kernel(level, chunk, plain, &mut queues),
             _ => plain_singly(chunk),
         }
     })
@@ -115,27 +113,40 @@ pub(crate) fn clip_plain<T: Real>(
 type PlainRun<T> =
     fn(Level, Chunk<'_, T>, &PlainFrustum<T>, &mut Queues) -> Result<(), NonFiniteAt>;
 
-struct PlainKernel<T: Real>(PlainRun<T>);
-
 /// The registers for each scalar type.
 struct PlainKernels;
 
 impl PerReal for PlainKernels {
-    type Of<T: Real> = PlainKernel<T>;
+    type Of<T: Real> = PlainRun<T>;
 
-    fn single(&self) -> &PlainKernel<f32> {
-        &PlainKernel(
-            |level, chunk, plain, queues| at_width!(level, simd => plain::clip::<_, f32, f32x8<_>, 8>(simd, chunk, plain, queues)),
-        )
+    fn single(&self) -> &PlainRun<f32> {
+        &(plain_run_single as PlainRun<f32>)
     }
 
-    fn double(&self) -> &PlainKernel<f64> {
-        &PlainKernel(
-            |level, chunk, plain, queues| at_width!(level, simd => plain::clip::<_, f64, f64x4<_>, 4>(simd, chunk, plain, queues)),
-        )
+    fn double(&self) -> &PlainRun<f64> {
+        &(plain_run_double as PlainRun<f64>)
     }
 }
 
+fn plain_run_single(
+    level: Level,
+    chunk: Chunk<'_, f32>,
+    frustum: &PlainFrustum<f32>,
+    queues: &mut Queues,
+) -> Result<(), NonFiniteAt> {
+    at_width!(level, simd => plain::singles(simd, chunk, frustum, queues))
+}
+
+fn plain_run_double(
+    level: Level,
+    chunk: Chunk<'_, f64>,
+    frustum: &PlainFrustum<f64>,
+    queues: &mut Queues,
+) -> Result<(), NonFiniteAt> {
+    at_width!(level, simd => plain::doubles(simd, chunk, frustum, queues))
+}
+
+/// For scalars that no registers are made for.
 fn plain_singly<T: Real>(chunk: Chunk<'_, T>) -> Result<(), NonFiniteAt> {
     for (index, segment) in chunk.segments.iter().enumerate() {
         chunk.clips[index] = super::vw::clip_plain(chunk.frustum, segment)

@@ -8,11 +8,34 @@ use crate::clip::{Class, Part, PartEnd, SegmentClip, plain, vw};
 use crate::frustum::{FaceSet, Form, General, Layout, PlainFrustum, Symmetric, Term};
 use crate::math::{NonFiniteAt, Real, Segment, Vec3};
 use fearless_simd::prelude::*;
+use fearless_simd::{f32x8, f64x4};
 use std::marker::PhantomData;
+
+/// Clips a chunk, eight segments at a time.
+#[inline(always)]
+pub(super) fn singles<S: Simd>(
+    simd: S,
+    chunk: Chunk<'_, f32>,
+    frustum: &PlainFrustum<f32>,
+    queues: &mut Queues,
+) -> Result<(), NonFiniteAt> {
+    clip::<S, f32, f32x8<S>, 8>(simd, chunk, frustum, queues)
+}
+
+/// Clips a chunk, four segments at a time.
+#[inline(always)]
+pub(super) fn doubles<S: Simd>(
+    simd: S,
+    chunk: Chunk<'_, f64>,
+    frustum: &PlainFrustum<f64>,
+    queues: &mut Queues,
+) -> Result<(), NonFiniteAt> {
+    clip::<S, f64, f64x4<S>, 4>(simd, chunk, frustum, queues)
+}
 
 /// Clips a chunk, N segments at a time.
 #[inline(always)]
-pub(super) fn clip<S, T, V, const N: usize>(
+fn clip<S, T, V, const N: usize>(
     simd: S,
     chunk: Chunk<'_, T>,
     frustum: &PlainFrustum<T>,
