@@ -2,7 +2,7 @@
 //! `clip/exact/lattice.rs`, where the reasons are. Of what has no length nothing is
 //! said.
 
-use super::exact::Values;
+use super::certified::Values;
 use super::lanes::Quad;
 use super::points::{Ends, Site};
 use crate::clip::{Class, Part, SegmentClip};

@@ -33,7 +33,7 @@
 //! instead of branches: as in vectorised data bases' selection vectors (Boncz,
 //! Zukowski, Nes, "MonetDB/X100", 2005).
 
-mod exact;
+mod certified;
 mod lanes;
 mod lattice;
 mod plain;
@@ -41,8 +41,9 @@ mod points;
 mod queue;
 
 use super::result::{Accuracy, SegmentClip, StageCounts};
+use super::{exact, vw};
 use crate::frustum::{Form, Frustum, General, PlainFrustum, Symmetric};
-use crate::math::{NonFiniteAt, PerReal, Real, Segment};
+use crate::math::{NonFinite, NonFiniteAt, PerReal, Real, Segment};
 use fearless_simd::{Level, Simd};
 use queue::{CHUNK, Queues};
 
@@ -86,9 +87,10 @@ pub(crate) fn clip_exact<T: Real>(
     counts: &mut StageCounts,
 ) -> Result<(), NonFiniteAt> {
     let mut queues = Queues::new();
-    in_chunks(frustum, segments, clips, |chunk| {
-        let (queues, counts) = (&mut queues, &mut *counts);
-        at_width!(level, simd => exact_chunk(simd, chunk, accuracy, queues, counts))
+    let kernels = T::pick(&Both);
+    in_chunks(frustum, segments, clips, |chunk| match kernels {
+        Some(kernels) => (kernels.exact)(level, chunk, accuracy, &mut queues, counts),
+        None => singly(chunk, |f, s| exact::vw::clip(f, s, accuracy, counts)),
     })
 }
 
@@ -100,57 +102,83 @@ pub(crate) fn clip_plain<T: Real>(
     clips: &mut Vec<SegmentClip<T>>,
 ) -> Result<(), NonFiniteAt> {
     let mut queues = Queues::new();
-    let kernel = T::pick(&PlainKernels);
-    in_chunks(frustum, segments, clips, |chunk| {
-        match (kernel, frustum.plain()) {
-            (Some(kernel), Some(plain)) => kernel(level, chunk, plain, &mut queues),
-            _ => plain_singly(chunk),
-        }
+    let kernels = T::pick(&Both).zip(frustum.plain());
+    in_chunks(frustum, segments, clips, |chunk| match kernels {
+        Some((kernels, plain)) => (kernels.plain)(level, chunk, plain, &mut queues),
+        None => singly(chunk, vw::clip_plain),
     })
 }
 
-/// Clips a chunk in plain arithmetic.
-type PlainRun<T> =
+/// What clips a chunk of one scalar type. Functions that are not generic are
+/// compiled once, here, and not in every crate that clips.
+struct Kernels<T: Real> {
+    exact: ExactKernel<T>,
+    plain: PlainKernel<T>,
+}
+
+type ExactKernel<T> =
+    fn(Level, Chunk<'_, T>, Accuracy, &mut Queues, &mut StageCounts) -> Result<(), NonFiniteAt>;
+
+type PlainKernel<T> =
     fn(Level, Chunk<'_, T>, &PlainFrustum<T>, &mut Queues) -> Result<(), NonFiniteAt>;
 
-/// The registers for each scalar type.
-struct PlainKernels;
+/// The kernels of both scalar types.
+struct Both;
 
-impl PerReal for PlainKernels {
-    type Of<T: Real> = PlainRun<T>;
+impl PerReal for Both {
+    type Of<T: Real> = Kernels<T>;
 
-    fn single(&self) -> &PlainRun<f32> {
-        &(plain_run_single as PlainRun<f32>)
+    fn single(&self) -> &Kernels<f32> {
+        &Kernels {
+            exact: exact_singles,
+            plain: plain_singles,
+        }
     }
 
-    fn double(&self) -> &PlainRun<f64> {
-        &(plain_run_double as PlainRun<f64>)
+    fn double(&self) -> &Kernels<f64> {
+        &Kernels {
+            exact: exact_doubles,
+            plain: plain_doubles,
+        }
     }
 }
 
-fn plain_run_single(
-    level: Level,
-    chunk: Chunk<'_, f32>,
-    frustum: &PlainFrustum<f32>,
-    queues: &mut Queues,
-) -> Result<(), NonFiniteAt> {
-    at_width!(level, simd => plain::singles(simd, chunk, frustum, queues))
+macro_rules! kernels {
+    ($($t:ident $exact:ident $plain:ident $registers:ident;)*) => {$(
+        fn $exact(
+            level: Level,
+            chunk: Chunk<'_, $t>,
+            accuracy: Accuracy,
+            queues: &mut Queues,
+            counts: &mut StageCounts,
+        ) -> Result<(), NonFiniteAt> {
+            at_width!(level, simd => exact_chunk(simd, chunk, accuracy, queues, counts))
+        }
+
+        fn $plain(
+            level: Level,
+            chunk: Chunk<'_, $t>,
+            frustum: &PlainFrustum<$t>,
+            queues: &mut Queues,
+        ) -> Result<(), NonFiniteAt> {
+            at_width!(level, simd => plain::$registers(simd, chunk, frustum, queues))
+        }
+    )*};
 }
 
-fn plain_run_double(
-    level: Level,
-    chunk: Chunk<'_, f64>,
-    frustum: &PlainFrustum<f64>,
-    queues: &mut Queues,
-) -> Result<(), NonFiniteAt> {
-    at_width!(level, simd => plain::doubles(simd, chunk, frustum, queues))
+kernels! {
+    f32 exact_singles plain_singles singles;
+    f64 exact_doubles plain_doubles doubles;
 }
 
 /// For scalars that no registers are made for.
-fn plain_singly<T: Real>(chunk: Chunk<'_, T>) -> Result<(), NonFiniteAt> {
+fn singly<T: Real>(
+    chunk: Chunk<'_, T>,
+    mut clip: impl FnMut(&Frustum, &Segment<T>) -> Result<SegmentClip<T>, NonFinite>,
+) -> Result<(), NonFiniteAt> {
     for (index, segment) in chunk.segments.iter().enumerate() {
-        chunk.clips[index] = super::vw::clip_plain(chunk.frustum, segment)
-            .map_err(|found| NonFiniteAt { index, found })?;
+        chunk.clips[index] =
+            clip(chunk.frustum, segment).map_err(|found| NonFiniteAt { index, found })?;
     }
     Ok(())
 }
@@ -188,7 +216,7 @@ fn exact_chunk<S: Simd, T: Real>(
     queues: &mut Queues,
     counts: &mut StageCounts,
 ) -> Result<(), NonFiniteAt> {
-    let mut run = exact::Run {
+    let mut run = certified::Run {
         quad: lanes::Quad(simd),
         chunk,
         accuracy,
