@@ -30,7 +30,7 @@ pub fn line(row: &Row) -> String {
         "{:<39} {:>3} {:>5} {:>5} {:>6}",
         fitted(&name, 39),
         row.scalar,
-        time(row.ns_median, 1),
+        time(row.ns_median, usize::from(row.ns_median < Some(1e3))),
         time(row.time_ratio, 2),
         time(row.time_ratio_slices, 2)
     );
@@ -53,7 +53,7 @@ fn fitted(text: &str, width: usize) -> String {
     if count <= width {
         return text.to_owned();
     }
-    let end = width / 4;
+    let end = width / 5;
     let start = text.chars().take(width - 1 - end);
     start
         .chain(['…'])
@@ -105,7 +105,7 @@ mod tests {
         assert_eq!(grouped(2_000_000), "2,000,000");
         assert_eq!(fitted("abcdef", 6), "abcdef");
         assert_eq!(fitted("abcdefg", 6), "abcd…g");
-        assert_eq!(fitted("abcdefghijklm", 8), "abcde…lm");
+        assert_eq!(fitted("abcdefghijklm", 8), "abcdef…m");
         assert_eq!(heading().chars().count(), 100);
     }
 }
