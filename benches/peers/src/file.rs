@@ -184,8 +184,11 @@ const TOLD: [Told; 8] = {
     ]
 };
 
+/// A row's ratio of times.
+type Ratio = fn(&Row) -> Option<f64>;
+
 /// Exact-class V/W in its four ways, and what others take in its times.
-const OURS: [(&str, fn(&Row) -> Option<f64>); 4] = [
+const OURS: [(&str, Ratio); 4] = [
     ("f64", |row| row.time_ratio),
     ("f64, slices", |row| row.time_ratio_slices),
     ("f32", |row| row.time_ratio_f32),
