@@ -13,11 +13,11 @@ use crate::peer::{Case, Contestant, Timed, enter};
 use crate::quads::{PlaneSplit, Quad};
 use crate::scene::{Block, Camera};
 use crate::segments::{
-    Attributed, CohenSutherland2, ParryBox32, ParryBox64, ParryCall, Prepared, REFERENCE, Slice,
-    Transformed, contenders, cube_matrix,
+    Attributed, CohenSutherland2, ParryBox32, ParryBox64, ParryCall, Prepared, REFERENCE,
+    REFERENCE_SLICES, Slice, Transformed, contenders, cube_matrix,
 };
 use crate::tally::{Judge, SegmentJudge, Tally, count};
-use crate::turns::{Time, take_turns};
+use crate::turns::{REFERENCES, Time, take_turns};
 use frusta::{Frustum, Segment};
 
 /// Contestants for one kind of case.
@@ -212,12 +212,18 @@ fn load<C: Case + 'static>(mut field: Field<C>, cases: &[C]) -> Vec<Box<dyn Time
     field.into_iter().map(|c| c as Box<dyn Timed>).collect()
 }
 
-/// Where the references are: exact-class V/W in `f64`, and in `f32`.
-fn references(all: &[Box<dyn Timed>]) -> [Option<usize>; 2] {
-    ["f64", "f32"].map(|scalar| {
+/// Where the references are: exact-class V/W in `f64` and in `f32`, then both over slices.
+fn references(all: &[Box<dyn Timed>]) -> [Option<usize>; REFERENCES] {
+    [
+        (REFERENCE, "f64"),
+        (REFERENCE, "f32"),
+        (REFERENCE_SLICES, "f64"),
+        (REFERENCE_SLICES, "f32"),
+    ]
+    .map(|reference| {
         all.iter().position(|c| {
             let who = c.who();
-            who.function == REFERENCE && who.scalar == scalar
+            (who.function, who.scalar) == reference
         })
     })
 }

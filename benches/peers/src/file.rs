@@ -52,6 +52,10 @@ pub struct Row {
     pub time_ratio_quartiles: Option<[f64; 2]>,
     /// Times the time of exact-class V/W in `f32`, median over rounds.
     pub time_ratio_f32: Option<f64>,
+    /// Times the time of exact-class V/W in `f64` over slices, median over rounds.
+    pub time_ratio_slices: Option<f64>,
+    /// Times the time of exact-class V/W in `f32` over slices, median over rounds.
+    pub time_ratio_slices_f32: Option<f64>,
     /// Wrong answers: phantom, missed, misplaced and refused.
     pub wrong: Option<u64>,
     /// Hits where there is nothing.
@@ -92,7 +96,7 @@ axis-aligned boxes, for physics; retrofire clips what it draws, in f32 clip spac
 draws in terminals; plane-split orders quads for a compositor; the cullers are meant to say yes \
 too often. The half-integer lattice is where plain arithmetic fails most, which is why it is \
 there, beside mixes where it hardly fails. Everybody is called for one case at a time (retrofire \
-also for slices), with planes, matrices and types prepared; peers that work in f32 get frusta's \
+and frusta also for slices, which parry and line-clipping do not offer), with planes, matrices and types prepared; peers that work in f32 get frusta's \
 f32 beside its f64. Most clipped ends of everybody are outside by a rounding: that is counted, \
 and not called wrong.";
 
@@ -101,6 +105,7 @@ impl Row {
     pub fn new(contest: &dyn Contest, outcome: &Outcome) -> Self {
         let Outcome { who, tally, time } = outcome;
         let is_computed = |error: &f64| *error > 0.0;
+        let median = |reference: usize| time.ratios[reference].map(|[_, median, _]| median);
         Self {
             job: contest.job(),
             library: who.library,
@@ -110,9 +115,11 @@ impl Row {
             input: contest.input().to_owned(),
             cases: tally.map(|t| t.cases),
             ns_median: Some(time.nanoseconds),
-            time_ratio: time.ratios[0].map(|[_, median, _]| median),
+            time_ratio: median(0),
             time_ratio_quartiles: time.ratios[0].map(|[low, _, high]| [low, high]),
-            time_ratio_f32: time.ratios[1].map(|[_, median, _]| median),
+            time_ratio_f32: median(1),
+            time_ratio_slices: median(2),
+            time_ratio_slices_f32: median(3),
             wrong: tally.map(|t| t.wrong()),
             phantom: tally.map(|t| t.phantom),
             missed: tally.map(|t| t.missed),
@@ -138,6 +145,8 @@ impl Row {
             time_ratio: None,
             time_ratio_quartiles: None,
             time_ratio_f32: None,
+            time_ratio_slices: None,
+            time_ratio_slices_f32: None,
             wrong: None,
             phantom: None,
             missed: None,
@@ -155,41 +164,47 @@ impl Row {
     }
 }
 
+/// A job, a function and its library, whose times are told as means.
+type Told = (&'static str, &'static str, &'static str);
+
+/// The first two are what everybody asks first.
+const TOLD: [Told; 8] = {
+    let (boxes, window, frustum) = ("segment-box", "segment-window", "segment-frustum");
+    let (clip, bounds) = ("Aabb::clip_segment", "clip_segment, bounding box");
+    let retrofire = "retrofire-core";
+    [
+        (boxes, clip, "parry3d-f64"),
+        (frustum, "transform + clip", retrofire),
+        (frustum, "transform + clip, slices", retrofire),
+        (frustum, "transform + clip, positions", retrofire),
+        (boxes, clip, "parry3d"),
+        (frustum, bounds, "parry3d-f64"),
+        (frustum, bounds, "parry3d"),
+        (window, "cohen_sutherland::clip_line", "line-clipping"),
+    ]
+};
+
+/// A row's ratio of times.
+type Ratio = fn(&Row) -> Option<f64>;
+
+/// Exact-class V/W in its four ways, and what others take in its times.
+const OURS: [(&str, Ratio); 4] = [
+    ("f64", |row| row.time_ratio),
+    ("f64, slices", |row| row.time_ratio_slices),
+    ("f32", |row| row.time_ratio_f32),
+    ("f32, slices", |row| row.time_ratio_slices_f32),
+];
+
 /// The peers' times over exact-class V/W's, in means over the mixes.
 pub fn headlines(rows: &[Row]) -> Vec<Headline> {
-    let ratios = |job: &str, function: &str, library: &str, single: bool| -> Vec<f64> {
-        let is_mix = |row: &&Row| !matches!(&row.input[..], "half-lattice" | "uniform");
-        let is_it = |row: &&Row| (row.job, row.function, row.library) == (job, function, library);
-        let own = |row: &Row| {
-            if single {
-                row.time_ratio_f32
-            } else {
-                row.time_ratio
-            }
-        };
-        let found = rows.iter().filter(is_it).filter(is_mix);
-        found.filter_map(own).collect()
-    };
-    let (clip, bounds) = ("Aabb::clip_segment", "clip_segment, bounding box");
-    let transform = "transform + clip";
-    let (slices, positions) = ("transform + clip, slices", "transform + clip, positions");
+    let is_mix = |row: &&Row| !matches!(&row.input[..], "half-lattice" | "uniform");
     let mut all = Vec::new();
-    for (job, function, library) in [
-        ("segment-box", clip, "parry3d-f64"),
-        ("segment-box", clip, "parry3d"),
-        ("segment-frustum", bounds, "parry3d-f64"),
-        ("segment-frustum", bounds, "parry3d"),
-        ("segment-frustum", transform, "retrofire-core"),
-        ("segment-frustum", slices, "retrofire-core"),
-        ("segment-frustum", positions, "retrofire-core"),
-        (
-            "segment-window",
-            "cohen_sutherland::clip_line",
-            "line-clipping",
-        ),
-    ] {
-        for (single, ours) in [(false, "f64"), (true, "f32")] {
-            let ratios = ratios(job, function, library, single);
+    for told in TOLD {
+        let is_it = |row: &&Row| (row.job, row.function, row.library) == told;
+        let (job, function, library) = told;
+        for (ours, ratio) in OURS {
+            let found = rows.iter().filter(is_it).filter(is_mix);
+            let ratios: Vec<f64> = found.filter_map(ratio).collect();
             if ratios.is_empty() {
                 continue;
             }

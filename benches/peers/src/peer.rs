@@ -3,7 +3,7 @@
 //! Everything that a program would prepare once (planes, matrices, its own types)
 //! is prepared outside of what is timed. Every library is called the same way, for
 //! one case at a time, in a call that is not inlined into the loop; one that works on
-//! slices may say so in its own [`Peer::pass`].
+//! slices may say so in its own [`Peer::pass`] and [`Peer::answers`].
 
 use std::hint::black_box;
 use std::time::Instant;
@@ -50,6 +50,11 @@ pub trait Peer {
     /// What the job's answer says; not timed.
     fn answer(&mut self, case: &Self::Case) -> <Self::Case as Case>::Answer;
 
+    /// What the job says of many cases; one that works on slices is asked for slices.
+    fn answers(&mut self, cases: &[Self::Case]) -> Vec<<Self::Case as Case>::Answer> {
+        cases.iter().map(|case| self.answer(case)).collect()
+    }
+
     /// The job on all inputs.
     fn pass(&mut self, inputs: &[Self::Input]) {
         for input in inputs {
@@ -89,6 +94,9 @@ pub trait Contestant<C: Case>: Timed {
     /// Its answer to one case.
     fn ask(&mut self, case: &C) -> C::Answer;
 
+    /// Its answers to many, in their order.
+    fn ask_all(&mut self, cases: &[C]) -> Vec<C::Answer>;
+
     /// Prepares the cases that passes go over.
     fn load(&mut self, cases: &[C]);
 }
@@ -122,6 +130,10 @@ impl<P: Peer> Timed for Loaded<P> {
 impl<P: Peer> Contestant<P::Case> for Loaded<P> {
     fn ask(&mut self, case: &P::Case) -> <P::Case as Case>::Answer {
         self.peer.answer(case)
+    }
+
+    fn ask_all(&mut self, cases: &[P::Case]) -> Vec<<P::Case as Case>::Answer> {
+        self.peer.answers(cases)
     }
 
     fn load(&mut self, cases: &[P::Case]) {

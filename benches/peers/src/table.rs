@@ -7,8 +7,8 @@ use std::fmt::Write;
 /// The columns' names.
 pub fn heading() -> String {
     format!(
-        "{:<43} {:>3} {:>6} {:>5} {:>7} {:>7} {:>7} {:>7} {:>7}",
-        "", "", "ns", "ratio", "phantom", "missed", "place", "outside", "refused"
+        "{:<39} {:>3} {:>5} {:>5} {:>6} {:>7} {:>6} {:>6} {:>7} {:>7}",
+        "", "", "ns", "ratio", "slices", "phantom", "missed", "place", "outside", "refused"
     )
 }
 
@@ -22,36 +22,43 @@ pub fn title(row: &Row) -> String {
 pub fn line(row: &Row) -> String {
     let name = format!("{} {}", row.library, row.function);
     if row.ns_median.is_none() {
-        return format!("{name:<43}");
+        return name;
     }
     let time = |t: Option<f64>, digits| t.map_or("-".into(), |t| format!("{t:.digits$}"));
     let count = |n: Option<u64>| n.map_or("-".into(), |n| n.to_string());
     let mut line = format!(
-        "{:<43} {:>3} {:>6} {:>5}",
-        fitted(&name, 43),
+        "{:<39} {:>3} {:>5} {:>5} {:>6}",
+        fitted(&name, 39),
         row.scalar,
-        time(row.ns_median, 1),
-        time(row.time_ratio, 2)
+        time(row.ns_median, usize::from(row.ns_median < Some(1e3))),
+        time(row.time_ratio, 2),
+        time(row.time_ratio_slices, 2)
     );
-    for n in [
-        row.phantom,
-        row.missed,
-        row.misplaced,
-        row.outside,
-        row.refused,
+    for (n, width) in [
+        (row.phantom, 7),
+        (row.missed, 6),
+        (row.misplaced, 6),
+        (row.outside, 7),
+        (row.refused, 7),
     ] {
         // A text cannot fail to be written to.
-        let _ = write!(line, " {:>7}", count(n));
+        let _ = write!(line, " {:>width$}", count(n));
     }
     line
 }
 
-/// The first so many characters, a dot for what is missing.
+/// The beginning and the end, a dot for what is missing between.
 fn fitted(text: &str, width: usize) -> String {
-    if text.chars().count() <= width {
+    let count = text.chars().count();
+    if count <= width {
         return text.to_owned();
     }
-    text.chars().take(width - 1).chain(['…']).collect()
+    let end = width / 5;
+    let start = text.chars().take(width - 1 - end);
+    start
+        .chain(['…'])
+        .chain(text.chars().skip(count - end))
+        .collect()
 }
 
 /// Thousands apart.
@@ -97,7 +104,8 @@ mod tests {
         assert_eq!(grouped(123), "123");
         assert_eq!(grouped(2_000_000), "2,000,000");
         assert_eq!(fitted("abcdef", 6), "abcdef");
-        assert_eq!(fitted("abcdefg", 6), "abcde…");
+        assert_eq!(fitted("abcdefg", 6), "abcd…g");
+        assert_eq!(fitted("abcdefghijklm", 8), "abcdef…m");
         assert_eq!(heading().chars().count(), 100);
     }
 }

@@ -93,10 +93,11 @@ pub fn count<'a, C: Case, J: Judge<C>>(
     let some = |cases: &[C]| {
         let mut tallies = none();
         let mut contestants = enter();
-        for case in cases {
+        let answers: Vec<_> = contestants.iter_mut().map(|c| c.ask_all(cases)).collect();
+        for (i, case) in cases.iter().enumerate() {
             let mut truth = judge.truth(case);
-            for (contestant, tally) in contestants.iter_mut().zip(&mut tallies) {
-                tally.add(&judge.judge(case, &mut truth, &contestant.ask(case)));
+            for (answers, tally) in answers.iter().zip(&mut tallies) {
+                tally.add(&judge.judge(case, &mut truth, &answers[i]));
             }
         }
         done(cases.len());

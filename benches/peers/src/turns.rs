@@ -12,8 +12,11 @@ pub struct Time {
     /// Nanoseconds a case, the median over rounds.
     pub nanoseconds: f64,
     /// In times of each reference, in the same round: lower quartile, median, upper quartile.
-    pub ratios: [Option<[f64; 3]>; 2],
+    pub ratios: [Option<[f64; 3]>; REFERENCES],
 }
+
+/// How many there may be that times are compared with.
+pub const REFERENCES: usize = 4;
 
 /// Rounds before those that count.
 const WARM_UP: usize = 2;
@@ -21,7 +24,7 @@ const WARM_UP: usize = 2;
 /// Takes turns; `references` are places in `all`.
 pub fn take_turns(
     all: &mut [Box<dyn Timed>],
-    references: [Option<usize>; 2],
+    references: [Option<usize>; REFERENCES],
     rounds: usize,
     mut on_round: impl FnMut(),
 ) -> Vec<Time> {
@@ -95,9 +98,12 @@ mod tests {
     fn ratios_are_taken_within_rounds() {
         let mut rounds = 0;
         let mut all: [Box<dyn Timed>; 2] = [Box::new(Paced(2.0, 0)), Box::new(Paced(6.0, 0))];
-        let times = take_turns(&mut all, [Some(0), None], 5, || rounds += 1);
+        let times = take_turns(&mut all, [Some(0), None, Some(1), None], 5, || rounds += 1);
         assert_eq!(rounds, 5 + WARM_UP);
         assert_eq!(times[0].nanoseconds, 10.0);
-        assert_eq!(times[1].ratios, [Some([3.0; 3]), None]);
+        let third = Some([1.0 / 3.0; 3]);
+        assert_eq!(times[0].ratios, [Some([1.0; 3]), None, third, None]);
+        let one = Some([1.0; 3]);
+        assert_eq!(times[1].ratios, [Some([3.0; 3]), None, one, None]);
     }
 }

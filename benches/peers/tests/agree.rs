@@ -2,9 +2,9 @@
 //! true.
 
 use frusta::samples::Random;
-use frusta::{Segment, Vec3};
+use frusta::{Real, Segment, Vec3};
 use frusta_peers::boxes::GridBox;
-use frusta_peers::contest::{Contest, Effort, Quads, Segments, all, cullings, segments};
+use frusta_peers::contest::{Contest, Effort, Field, Quads, Segments, all, cullings, segments};
 use frusta_peers::facts;
 use frusta_peers::quads::{FoundQuad, Quad};
 use frusta_peers::scene::Block;
@@ -93,6 +93,50 @@ fn easy_segments_are_everybodys() {
             }] += 1;
         }
         assert!(kinds.iter().all(|n| *n > 5), "{kinds:?} {contest:?}");
+    }
+}
+
+/// What frusta says over slices is what it says of each segment; how many clippers were compared.
+fn assert_same<T: Real>(mut field: Field<Segment<T>>, all: &[Segment<T>]) -> usize {
+    let names: Vec<_> = field.iter().map(|p| p.who()).collect();
+    let mut count = 0;
+    for (i, who) in names
+        .iter()
+        .enumerate()
+        .filter(|(_, w)| w.library == "frusta")
+    {
+        let Some(alone) = who.function.strip_suffix(", slices") else {
+            continue;
+        };
+        let twin = names.iter().position(|w| w.function == alone).expect("one");
+        let sliced = field[i].ask_all(all);
+        assert_eq!(sliced.len(), all.len());
+        for (segment, found) in all.iter().zip(&sliced) {
+            let own = field[twin].ask(segment);
+            assert_eq!(*found, own, "{who:?} on {segment:?}");
+        }
+        count += 1;
+    }
+    count
+}
+
+#[test]
+fn slices_answer_as_single_segments_do() {
+    for contest in segments() {
+        let mut random = Random::new(&[12]);
+        let mut case = |i: usize| {
+            let [a, b] = [[0.9, 0.9], [0.9, 60.0], [60.0, 60.0], [1.2, 1.2]][i % 4];
+            let [a, b] = [a, b].map(|grown| easy_point(&mut random, &contest, grown));
+            // Half-integers meet faces, edges and corners.
+            let near = |p: Vec3<f64>| Vec3::from(p.to_array().map(|c| (c * 2.0).round() / 2.0));
+            let [a, b] = if i % 8 < 4 { [a, b].map(near) } else { [a, b] };
+            flattened(&contest, Segment::new(a, b))
+        };
+        let doubles: Vec<_> = (0..1500).map(&mut case).collect();
+        let singles: Vec<_> = doubles.iter().map(single).collect();
+        assert_eq!(assert_same(contest.doubles(), &doubles), 4);
+        let kinds = assert_same(contest.singles(), &singles);
+        assert_eq!(kinds, if contest.singles().is_empty() { 0 } else { 4 });
     }
 }
 

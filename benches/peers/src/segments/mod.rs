@@ -6,12 +6,15 @@ mod parry;
 mod retrofire;
 
 pub use line_clipping::CohenSutherland2;
-pub use ours::{Ours, REFERENCE, contenders, reference};
+pub use ours::{Ours, OursSlices, REFERENCE, REFERENCE_SLICES, contenders, reference};
 pub use parry::{ParryBox32, ParryBox64, ParryCall};
 pub use retrofire::{Attributed, Prepared, Slice, Transformed, cube_matrix};
 
 use crate::peer::Case;
 use frusta::{Real, Segment, Vec3};
+
+/// Segments a call, where slices are clipped.
+const PIECE: usize = 1024;
 
 /// What a library says of a segment.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -6,7 +6,7 @@
 //! attribute of the vertices, which is what gives ends in the world, as frusta does, or without;
 //! edge by edge, or all in one slice.
 
-use super::{Found, FoundEnd, part};
+use super::{Found, FoundEnd, PIECE, part};
 use crate::peer::{Peer, Who};
 use frusta::{Real, Segment, Vec3};
 use retrofire_core::geom::{Edge, vertex};
@@ -258,7 +258,7 @@ impl Peer for Slice {
 
     fn pass(&mut self, inputs: &[[World; 2]]) {
         let matrix = &self.inner.matrix;
-        for some in inputs.chunks(1024) {
+        for some in inputs.chunks(PIECE) {
             self.edges.clear();
             let edges = some.iter().map(|points| plain_edge(matrix, points));
             self.edges.extend(edges);

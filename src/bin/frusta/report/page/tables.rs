@@ -182,7 +182,7 @@ pub(super) fn proportion(table: &PaperTable) -> Option<String> {
 }
 
 /// The columns of a file of other libraries' results.
-const PEERS: [&str; 16] = [
+const PEERS: [&str; 18] = [
     "job",
     "library",
     "version",
@@ -192,13 +192,20 @@ const PEERS: [&str; 16] = [
     "cases",
     "ns_median",
     "time_ratio",
+    "time_ratio_slices",
     "wrong",
     "phantom",
     "missed",
+    "misplaced",
     "outside",
     "refused",
     "checked_by",
     "note",
+];
+
+/// Those of them that hold words.
+const WORDS: [&str; 7] = [
+    "job", "library", "version", "function", "scalar", "input", "note",
 ];
 
 /// Other libraries, as their file has them; `None` if it has no rows.
@@ -210,10 +217,7 @@ pub(super) fn peers(peers: &Value) -> Option<Markup> {
     let heads: Vec<(String, &str)> = keys
         .iter()
         .map(|key| {
-            let words = [
-                "job", "library", "version", "function", "scalar", "input", "note",
-            ];
-            let class = if words.contains(key) { "t" } else { "" };
+            let class = if WORDS.contains(key) { "t" } else { "" };
             (key.replace('_', " "), class)
         })
         .collect();
@@ -227,14 +231,14 @@ pub(super) fn peers(peers: &Value) -> Option<Markup> {
 /// A peer's cell, whatever the file has there.
 fn value(key: &str, value: Option<&Value>) -> Markup {
     match value {
-        None | Some(Value::Null) => html! { td {} },
+        None | Some(Value::Null) => html! { td.t[WORDS.contains(&key)] { "-" } },
         Some(Value::Number(n)) => {
             let number = n.as_f64().unwrap_or(0.0);
             let text = match n.as_u64() {
                 Some(whole) => count(whole),
                 None => figure(number),
             };
-            let fault = ["wrong", "phantom", "missed", "outside", "refused"].contains(&key);
+            let fault = ["wrong", "phantom", "missed", "misplaced", "refused"].contains(&key);
             html! { td.bad[fault && number > 0.0] data-v=(number) { (text) } }
         }
         Some(Value::String(text)) if key == "note" => html! { td.w { (text) } },

@@ -123,11 +123,16 @@ fn what_others_say_is_escaped() {
     let peers = json!({"rows": [
         {"job": evil, "library": "a&b", "note": "\"<i>", "ns_median": 1.5, "wrong": 3, "cases": 10},
         {"job": ["x"], "library": null, "ns_median": -1e300},
+        {"time_ratio_slices": 2.5, "misplaced": 7},
     ]});
     let html = page(&survey, &paper, Some(&peers), &omitted);
     assert!(!html.contains(evil) && html.contains("&lt;script&gt;alert"));
     assert!(html.contains("a&amp;b") && html.contains("<b>&lt;b&gt;</b>"));
     assert!(!html.contains("has no results of them"));
+    // Columns that only this row has; what is null or absent is a dash.
+    assert!(html.contains(">time ratio slices<") && html.contains(">misplaced<"));
+    assert!(html.contains("<td class=\"bad\" data-v=\"7\">7</td>"));
+    assert!(html.contains("<td>-</td>") && html.contains("<td class=\"t\">-</td>"));
     Document::parse(&closed(&html)).unwrap();
     for nothing in [
         json!({}),

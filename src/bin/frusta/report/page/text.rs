@@ -315,7 +315,12 @@ fn peers(peers: Option<&Value>) -> Markup {
                     "Other crates at the same jobs on the same inputs. Their answers are held against the \
                      same rational arithmetic: a phantom is a hit where nothing is hit, a miss the \
                      opposite. A library that promises less is not wrong by its own measure; its notes \
-                     say what it does promise."
+                     say what it does promise. Misplaced is an end in a wrong place; outside, one that is not \
+                     in the set by a rounding, which is not called wrong."
+                }
+                p.soft {
+                    "Time ratios are to exact-class V/W in f64, one segment a call; time ratio slices, to the \
+                     same over slices. Larger is slower; a dash is where there is nothing to tell."
                 }
                 (table)
             }
