@@ -142,7 +142,7 @@ fn the_papers_table_has_a_row_for_every_algorithm() {
 fn the_report_is_tables_otherwise() {
     let tables = text(&report(&[]).stdout);
     for part in [
-        "2 families of cases, 40 of each",
+        "families: 2; cases of each in each scalar type: 40",
         "\nexact-nearest-f32: 40 cases\nvw ",
         "\nsubnormal ",
         "\nThe 78 singular samples in the standard frame",
@@ -175,15 +175,17 @@ fn threads_do_not_change_what_is_found() {
     assert_eq!(with("1"), with("3"));
 }
 
+const PEERS: &str = r#"{"schema": "frusta-peers/1", "rows": [{"library": "other"}]}"#;
+
 #[test]
 fn a_folder_has_it_all() {
     let folder = Folder::new();
-    let peers = folder.write("peers.json", r#"{"rows": [{"peer": "other"}]}"#);
+    let peers = folder.write("peers.json", PEERS);
     let out = folder.name("new/folder");
     let run = report(&["--out", &out, "--peers", &peers]);
     assert!(text(&run.stdout).ends_with(&format!("written to {out}\n")));
     let json: Value = serde_json::from_str(&folder.read("new/folder/report.json")).unwrap();
-    assert_eq!(json["peers"]["rows"][0]["peer"], "other");
+    assert_eq!(json["peers"]["rows"][0]["library"], "other");
     let no_peers = |o: &Value| o["what"] == "other libraries";
     assert!(!json["omitted"].as_array().unwrap().iter().any(no_peers));
     for (file, list) in [("rows.csv", "rows"), ("witnesses.csv", "witnesses")] {
@@ -215,17 +217,34 @@ fn what_cannot_be_written_or_read_is_told_at_once_and_leaves_nothing() {
     let folder = Folder::new();
     folder.write("file", "");
     let torn = folder.write("torn.json", "{\"rows\": [");
+    let other = folder.write("other.json", r#"{"rows": [{"library": "other"}]}"#);
+    let empty = folder.write(
+        "empty.json",
+        r#"{"schema": "frusta-peers/1", "rows": [{}]}"#,
+    );
     std::fs::create_dir_all(folder.path("taken/witnesses.csv")).unwrap();
+    std::fs::create_dir_all(folder.path("page/report.html")).unwrap();
+    std::fs::create_dir_all(folder.path("panel/panels/thin.svg")).unwrap();
     for (args, said) in [
         (
             ["--out", &folder.name("file")],
-            "file: cannot be made a folder",
+            "file: cannot be made a folder: it is a file",
         ),
         (
             ["--out", &folder.name("taken")],
             "witnesses.csv: cannot be written: it is a folder",
         ),
         (["--peers", &folder.name("none")], "none: No such file"),
+        (
+            ["--out", &folder.name("page")],
+            "report.html: cannot be written: it is a folder",
+        ),
+        (
+            ["--out", &folder.name("panel")],
+            "thin.svg: cannot be written: it is a folder",
+        ),
+        (["--peers", &other], "other.json: no results of peers"),
+        (["--peers", &empty], "empty.json: no results of peers"),
         (["--peers", &torn], "torn.json: not JSON: EOF"),
     ] {
         // Without --quick it would take minutes.
@@ -238,9 +257,12 @@ fn what_cannot_be_written_or_read_is_told_at_once_and_leaves_nothing() {
         );
         assert!(run.stdout.is_empty());
     }
-    assert_eq!(folder.files(), ["file", "taken", "torn.json"]);
-    let left: Vec<_> = std::fs::read_dir(folder.path("taken")).unwrap().collect();
-    assert_eq!(left.len(), 1);
+    let given = "empty.json file other.json page panel taken torn.json";
+    assert_eq!(folder.files().join(" "), given);
+    for (taken, count) in [("taken", 1), ("page", 1), ("panel", 1), ("panel/panels", 1)] {
+        let left = std::fs::read_dir(folder.path(taken)).unwrap();
+        assert_eq!(left.count(), count, "{taken}");
+    }
 }
 
 #[test]

@@ -19,7 +19,7 @@ impl fmt::Display for SurveyTable<'_> {
         let families = families(survey);
         writeln!(
             f,
-            "{} families of cases, {} of each in each scalar type, seed {}; times of {} rounds",
+            "families: {}; cases of each in each scalar type: {}; seed: {}; rounds of times: {}",
             families.len(),
             survey.cases,
             survey.seed,

@@ -52,6 +52,17 @@ pub(crate) struct Type {
     pub(crate) colour: &'static str,
 }
 
+impl Type {
+    /// In the palette's ink.
+    pub(crate) fn new(palette: &Palette, size: f64, bold: bool) -> Self {
+        Self {
+            size,
+            bold,
+            colour: palette.ink,
+        }
+    }
+}
+
 /// A picture in the making.
 pub(crate) struct Canvas {
     svg: String,

@@ -1,7 +1,7 @@
 //! Where cases come from: a line on the command line, a file or a pipe of lines, the
 //! witnesses of a `report.json`.
 
-use crate::failure::Failure;
+use crate::failure::{Failure, quote, shorten};
 use crate::input::{Lines, MARK};
 use frusta::report::{CaseLine, CaseLineError};
 use serde::Deserialize;
@@ -35,7 +35,7 @@ pub(super) fn read(inputs: &[String]) -> Result<Vec<Numbered>, Failure> {
             cases.add_all(Path::new("standard input"), io::stdin().lock())?;
         } else {
             let path = Path::new(input);
-            let file = File::open(path).map_err(|e| Failure::in_file(path, e))?;
+            let file = File::open(path).map_err(|e| unopened(input, &e))?;
             cases.add_all(path, BufReader::new(file))?;
         }
     }
@@ -49,6 +49,16 @@ pub(super) fn read(inputs: &[String]) -> Result<Vec<Numbered>, Failure> {
 fn is_line(argument: &str) -> bool {
     let mut words = argument.split_whitespace();
     matches!(words.next(), Some("f32" | "f64")) && words.next().is_some()
+}
+
+/// Why an argument is no file; it may be meant as a line.
+fn unopened(argument: &str, why: &io::Error) -> Failure {
+    if argument.trim().contains(char::is_whitespace) || argument.is_empty() {
+        let why = "is no file, and a line begins with f64 or f32";
+        Failure::new(format_args!("{} {why}", quote(argument)))
+    } else {
+        Failure::in_file(Path::new(&shorten(argument)), why)
+    }
 }
 
 struct Cases(Vec<Numbered>);

@@ -70,7 +70,7 @@ pub(crate) fn run(args: &ReplayArgs) -> Result<ExitCode, Failure> {
     if let Some(folder) = &args.out {
         make(folder)?;
     }
-    let (mut wrong, mut objects) = (false, Vec::new());
+    let (mut wrong, mut begun) = (false, false);
     for Numbered {
         number,
         title,
@@ -85,7 +85,13 @@ pub(crate) fn run(args: &ReplayArgs) -> Result<ExitCode, Failure> {
             crate::picture::save(file, &svg)?;
         }
         if args.json {
-            objects.push(json::case(number, &title, &replay));
+            // A case at a time: many are more than a memory holds.
+            let before = if begun { ",\n" } else { "[\n" };
+            print(&format!(
+                "{before}{:#}",
+                json::case(number, &title, &replay)
+            ))?;
+            begun = true;
         } else if alone {
             print(&text::text(&replay))?;
         } else {
@@ -93,7 +99,7 @@ pub(crate) fn run(args: &ReplayArgs) -> Result<ExitCode, Failure> {
         }
     }
     if args.json {
-        print(&format!("{:#}\n", serde_json::Value::from(objects)))?;
+        print("\n]\n")?;
     }
     Ok(if wrong {
         ExitCode::from(crate::WRONG)

@@ -3,37 +3,49 @@
 //! Its files are begun before anything is measured, so that a folder that cannot be
 //! written is no loss of minutes, and get their names when all of them are whole.
 
-use super::Page;
 use super::data::{Report, Witness};
+use super::{Page, page};
 use crate::failure::Failure;
 use crate::whole_file::WholeFile;
+use frusta::samples::Family;
 use serde::Serialize;
 use std::collections::BTreeMap;
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
-/// The data files of a report, begun.
+/// The files of a report, begun.
 pub(crate) struct Folder {
     folder: PathBuf,
     json: WholeFile,
     rows: WholeFile,
     witnesses: WholeFile,
     lines: WholeFile,
+    html: WholeFile,
+    panels: Vec<(Family, WholeFile)>,
 }
 
 impl Folder {
     /// Makes the folder where there is none, and begins the files.
-    pub(crate) fn begin(folder: &Path) -> Result<Self, Failure> {
-        std::fs::create_dir_all(folder).map_err(|e| {
-            let why = format!("cannot be made a folder: {}", e.kind());
-            Failure::in_file(folder, why)
-        })?;
+    pub(crate) fn begin(folder: &Path, families: &[Family]) -> Result<Self, Failure> {
+        make(folder)?;
         let begin = |name| WholeFile::create(&folder.join(name));
+        let (json, rows) = (begin("report.json")?, begin("rows.csv")?);
+        let (witnesses, lines) = (begin("witnesses.csv")?, begin("witnesses.txt")?);
+        let html = begin("report.html")?;
+        let panels = folder.join("panels");
+        make(&panels)?;
+        let panel = |&family: &Family| {
+            let file = WholeFile::create(&panels.join(format!("{family}.svg")))?;
+            Ok((family, file))
+        };
         Ok(Self {
-            json: begin("report.json")?,
-            rows: begin("rows.csv")?,
-            witnesses: begin("witnesses.csv")?,
-            lines: begin("witnesses.txt")?,
             folder: folder.to_owned(),
+            json,
+            rows,
+            witnesses,
+            lines,
+            html,
+            panels: families.iter().map(panel).collect::<Result<_, _>>()?,
         })
     }
 
@@ -44,15 +56,13 @@ impl Folder {
         self.witnesses
             .write(&self.csv("witnesses.csv", &report.witnesses)?)?;
         self.lines.write(lines(&report.witnesses).as_bytes())?;
-        super::page::write(&self.folder, page)?;
-        let Self {
-            json,
-            rows,
-            witnesses,
-            lines,
-            ..
-        } = self;
-        let mut files = [rows, witnesses, lines, json].into_iter();
+        self.html.write(page::html(page)?.as_bytes())?;
+        for (family, file) in &mut self.panels {
+            file.write(page::panel(page, *family).as_bytes())?;
+        }
+        let data = [self.rows, self.witnesses, self.lines, self.json];
+        let panels = self.panels.into_iter().map(|(_, file)| file);
+        let mut files = data.into_iter().chain(panels).chain([self.html]);
         files.try_for_each(WholeFile::finish)
     }
 
@@ -68,6 +78,18 @@ impl Folder {
         let bytes = written.and_then(|()| writer.into_inner().map_err(|e| e.into_error().into()));
         bytes.map_err(|e| Failure::in_file(&self.folder.join(name), e))
     }
+}
+
+/// Makes a folder where there is none.
+fn make(folder: &Path) -> Result<(), Failure> {
+    std::fs::create_dir_all(folder).map_err(|e| {
+        let why = match e.kind() {
+            ErrorKind::AlreadyExists => "it is a file".to_owned(),
+            ErrorKind::NotADirectory => "it would be in a file".to_owned(),
+            kind => kind.to_string(),
+        };
+        Failure::in_file(folder, format_args!("cannot be made a folder: {why}"))
+    })
 }
 
 /// Every worst input once, under comments that say for whom; `frusta replay` takes it

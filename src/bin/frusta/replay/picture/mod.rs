@@ -72,24 +72,16 @@ pub(super) fn picture(
         classes: false,
     };
     draw_legend(&mut canvas, [MARGIN, bottom], 13.0, entries);
-    let small = font(&canvas, 12.0, false);
+    let small = Type::new(canvas.palette, 12.0, false);
     for (i, text) in line.iter().enumerate() {
         canvas.text([MARGIN, bottom + 34.0 + LINE * i as f64], text, small);
     }
     canvas.finish()
 }
 
-fn font(canvas: &Canvas, size: f64, bold: bool) -> Type {
-    Type {
-        size,
-        bold,
-        colour: canvas.palette.ink,
-    }
-}
-
 fn heading(canvas: &mut Canvas, replay: &Replay, title: &str) {
     let class = replay.truth.class;
-    let large = font(canvas, 24.0, true);
+    let large = Type::new(canvas.palette, 24.0, true);
     let title = if title.is_empty() {
         "A replayed case"
     } else {
@@ -111,7 +103,7 @@ fn heading(canvas: &mut Canvas, replay: &Replay, title: &str) {
         wrong(false),
         wrong(true)
     );
-    let plain = font(canvas, 15.0, false);
+    let plain = Type::new(canvas.palette, 15.0, false);
     canvas.text([MARGIN, 74.0], &line, plain);
 }
 
@@ -151,9 +143,9 @@ fn whole(canvas: &mut Canvas, replay: &Replay, scene: &Scene) {
 }
 
 fn name(canvas: &mut Canvas, plane: Plane, size: Place, scene: &Scene) {
-    let bold = font(canvas, 15.0, true);
+    let bold = Type::new(canvas.palette, 15.0, true);
     canvas.text([12.0, 24.0], plane.name(), bold);
-    let small = font(canvas, 12.0, false);
+    let small = Type::new(canvas.palette, 12.0, false);
     canvas.text([46.0, 24.0], &format!("{} upwards", plane.across()), small);
     let sign = if scene.solid.shape.direction().sign() > 0.0 {
         ""
@@ -210,7 +202,7 @@ fn stretched(canvas: &mut Canvas, scene: &Scene) {
             names.join(" and ")
         )
     };
-    let small = font(canvas, 13.0, false);
+    let small = Type::new(canvas.palette, 13.0, false);
     canvas.text([MARGIN, TOP + LARGE[1] + 22.0], &text, small);
 }
 
@@ -221,7 +213,7 @@ fn closely(canvas: &mut Canvas, replay: &Replay, scene: &Scene, spot: &Spot, top
         spot.name,
         decimal(&(&spot.half * exact::exact(2.0)), 3)
     );
-    let bold = font(canvas, 14.0, true);
+    let bold = Type::new(canvas.palette, 14.0, true);
     canvas.text([MARGIN, top - 6.0], &title, bold);
     for (i, plane) in [Plane::V, Plane::W].into_iter().enumerate() {
         let corner = [MARGIN + i as f64 * (SPOT + GAP), top + 8.0];
@@ -240,7 +232,7 @@ fn closely(canvas: &mut Canvas, replay: &Replay, scene: &Scene, spot: &Spot, top
     }
     let left = 2.0 * MARGIN + 2.0 * SPOT + GAP;
     let palette = canvas.palette;
-    let small = font(canvas, 14.0, false);
+    let small = Type::new(canvas.palette, 14.0, false);
     let mut y = top + 24.0;
     canvas.cross([left + 8.0, y - 5.0], 5.0, Pen::new(palette.wrong, 2.2));
     canvas.text([left + 24.0, y], "plain arithmetic's points", small);
@@ -258,7 +250,7 @@ fn closely(canvas: &mut Canvas, replay: &Replay, scene: &Scene, spot: &Spot, top
 }
 
 fn words(canvas: &mut Canvas, [x, y]: Place, lines: &[String]) {
-    let type_ = font(canvas, 14.0, false);
+    let type_ = Type::new(canvas.palette, 14.0, false);
     for (i, line) in lines.iter().enumerate() {
         canvas.text([x, y + WORDS * i as f64], line, type_);
     }

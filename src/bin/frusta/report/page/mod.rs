@@ -23,30 +23,23 @@ mod tests;
 
 use super::Page;
 use crate::failure::Failure;
-use crate::whole_file::WholeFile;
-use std::path::Path;
+use frusta::report::SurveyRow;
+use frusta::samples::Family;
+use serde_json::Value;
 
-/// Writes `report.html` and `panels/<family>.svg`; none of them has its name before all
-/// are whole.
-pub(crate) fn write(dir: &Path, page: &Page<'_>) -> Result<(), Failure> {
-    let panels = dir.join("panels");
-    std::fs::create_dir_all(&panels).map_err(|e| {
-        let why = format!("cannot be made a folder: {}", e.kind());
-        Failure::in_file(&panels, why)
-    })?;
-    let mut files = Vec::new();
-    let mut add = |path: &Path, content: &str| {
-        let mut file = WholeFile::create(path)?;
-        file.write(content.as_bytes())?;
-        files.push(file);
-        Ok::<(), Failure>(())
-    };
-    for rows in panel::by_family(&page.survey.rows) {
-        if let Some(first) = rows.first() {
-            let name = format!("{}.svg", first.family);
-            add(&panels.join(name), &panel::file(&rows))?;
-        }
-    }
-    add(&dir.join("report.html"), &text::page(page)?)?;
-    files.into_iter().try_for_each(WholeFile::finish)
+/// `report.html`.
+pub(crate) fn html(page: &Page<'_>) -> Result<String, Failure> {
+    text::page(page)
+}
+
+/// A family's panel, as a file of its own.
+pub(crate) fn panel(page: &Page<'_>, family: Family) -> String {
+    let rows = page.survey.rows.iter();
+    let rows: Vec<&SurveyRow> = rows.filter(|row| row.family == family).collect();
+    panel::file(&rows)
+}
+
+/// Whether there is something to show of a file of other libraries' results.
+pub(crate) fn shows(peers: &Value) -> bool {
+    tables::peers(peers).is_some()
 }

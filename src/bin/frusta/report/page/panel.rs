@@ -86,7 +86,10 @@ pub(super) fn file(rows: &[&SurveyRow]) -> String {
 fn key(svg: &mut String) {
     let mut entry = |x: f64, row: f64, algorithm, tier, name: &str| {
         let y = SIZE[1] + 8.0 + 20.0 * row;
-        svg.push_str(&mark(algorithm, tier, [x, y], 5.0, ""));
+        let mark = mark(algorithm, tier, [x, y], 5.0, "");
+        // A shape stands for an algorithm in every colour, so it has none here.
+        let class = if row < 2.0 { "any" } else { "" };
+        let _ = writeln!(svg, "<g class=\"{class}\">{mark}</g>");
         let _ = writeln!(
             svg,
             "<text x=\"{}\" y=\"{}\" font-size=\"12\">{name}</text>",

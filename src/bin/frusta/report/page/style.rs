@@ -23,7 +23,7 @@ svg.panel{font-family:'DejaVu Sans',Verdana,sans-serif;background:var(--paper)}
 .panel .h{fill:var(--paper);stroke:currentColor;stroke-width:1.6;stroke-linejoin:round}
 .panel .tie{stroke:currentColor;stroke-width:.8;opacity:.35}
 .plain{color:var(--plain)}.fma{color:var(--fma)}.fast{color:var(--fast)}
-.nearest{color:var(--nearest)}.inward{color:var(--inward)}
+.nearest{color:var(--nearest)}.inward{color:var(--inward)}.any .plain{color:var(--soft)}
 ";
 
 /// Of the page alone.
@@ -52,7 +52,7 @@ figure svg,figure img{width:100%;height:auto;display:block}
 .key span{display:inline-flex;align-items:center;gap:.4rem}.key svg{width:18px;height:18px}
 .wide svg{min-width:860px}.scroll{overflow-x:auto;background:var(--paper);border:1px solid var(--faint);border-radius:8px}
 table{border-collapse:collapse;font-size:.86rem;font-variant-numeric:tabular-nums;width:100%}
-th,td{padding:.25em .6em;text-align:right;white-space:nowrap;border-bottom:1px solid var(--faint)}
+th,td{padding:.25em .45em;text-align:right;white-space:nowrap;border-bottom:1px solid var(--faint)}
 th{cursor:default;color:var(--soft);font-weight:600}th.sortable{cursor:pointer}
 td.t,th.t{text-align:left}td.w{white-space:normal;min-width:16rem;text-align:left}
 td.bad{background:var(--bad)}details{margin:.4rem 0}summary{cursor:pointer;padding:.2rem 0}

@@ -181,8 +181,8 @@ pub(super) fn proportion(table: &PaperTable) -> Option<String> {
     all.map(|all| all.join(" : "))
 }
 
-/// The columns of a file of other libraries' results.
-const PEERS: [&str; 18] = [
+/// The columns of other libraries' results: how each did each job.
+const PEERS: [&str; 21] = [
     "job",
     "library",
     "version",
@@ -193,55 +193,74 @@ const PEERS: [&str; 18] = [
     "ns_median",
     "time_ratio",
     "time_ratio_slices",
+    "time_ratio_f32",
+    "time_ratio_slices_f32",
     "wrong",
     "phantom",
     "missed",
     "misplaced",
     "outside",
     "refused",
+    "max_error_u_scale",
     "checked_by",
     "note",
 ];
 
-/// Those of them that hold words.
-const WORDS: [&str; 7] = [
-    "job", "library", "version", "function", "scalar", "input", "note",
-];
+/// Those of them that ought to be zero.
+const FAULTS: [&str; 5] = ["wrong", "phantom", "missed", "misplaced", "refused"];
 
-/// Other libraries, as their file has them; `None` if it has no rows.
+/// Of single inputs that end badly.
+const FACTS: [&str; 6] = ["library", "version", "what", "input", "result", "ours"];
+
+/// How other libraries did, as their file has it; `None` if it has no rows.
 pub(super) fn peers(peers: &Value) -> Option<Markup> {
-    let rows = peers.get("rows")?.as_array()?;
-    // Columns that no row has are left out.
-    let known = |key: &&&str| rows.iter().any(|row| row.get(**key).is_some());
-    let keys: Vec<&str> = PEERS.iter().filter(known).copied().collect();
+    listed(peers.get("rows")?, &PEERS)
+}
+
+/// What single inputs did to other libraries; `None` if the file has none.
+pub(super) fn facts(peers: &Value) -> Option<Markup> {
+    listed(peers.get("facts")?, &FACTS)
+}
+
+/// A list of objects as a table, without the columns that none of them has.
+fn listed(rows: &Value, columns: &[&str]) -> Option<Markup> {
+    let rows = rows.as_array()?;
+    let known = |key: &&&str| rows.iter().any(|row| !row[**key].is_null());
+    let keys: Vec<&str> = columns.iter().filter(known).copied().collect();
     let heads: Vec<(String, &str)> = keys
         .iter()
-        .map(|key| {
-            let class = if WORDS.contains(key) { "t" } else { "" };
-            (key.replace('_', " "), class)
-        })
+        .map(|key| (key.replace('_', " "), if is_text(key) { "t" } else { "" }))
         .collect();
     let heads: Vec<(&str, &str)> = heads.iter().map(|(h, c)| (h.as_str(), *c)).collect();
     let body = html! {
         @for row in rows { tr { @for key in &keys { (value(key, row.get(*key))) } } }
     };
-    (!rows.is_empty()).then(|| sortable(&heads, &body))
+    (!keys.is_empty()).then(|| sortable(&heads, &body))
+}
+
+fn is_text(key: &str) -> bool {
+    let words = [
+        "job", "library", "version", "function", "scalar", "input", "note",
+    ];
+    FACTS.contains(&key) || words.contains(&key)
 }
 
 /// A peer's cell, whatever the file has there.
 fn value(key: &str, value: Option<&Value>) -> Markup {
     match value {
-        None | Some(Value::Null) => html! { td.t[WORDS.contains(&key)] { "-" } },
+        None | Some(Value::Null) => html! { td.t[is_text(key)] { "-" } },
         Some(Value::Number(n)) => {
             let number = n.as_f64().unwrap_or(0.0);
             let text = match n.as_u64() {
                 Some(whole) => count(whole),
                 None => figure(number),
             };
-            let fault = ["wrong", "phantom", "missed", "misplaced", "refused"].contains(&key);
+            let fault = FAULTS.contains(&key);
             html! { td.bad[fault && number > 0.0] data-v=(number) { (text) } }
         }
-        Some(Value::String(text)) if key == "note" => html! { td.w { (text) } },
+        Some(Value::String(text)) if ["note", "result", "ours", "what"].contains(&key) => {
+            html! { td.w { (text) } }
+        }
         Some(Value::String(text)) => html! { td.t { (text) } },
         Some(other) => html! { td.t { (other.to_string()) } },
     }

@@ -167,7 +167,7 @@ fn how_to_read() -> Markup {
         }
         div.key {
             @for algorithm in SurveyAlgorithm::ALL {
-                span { (little(algorithm, SurveyTier::PlainF64)) (algorithm) }
+                span.any { (little(algorithm, SurveyTier::PlainF64)) (algorithm) }
             }
         }
         div.key {
@@ -323,6 +323,10 @@ fn peers(peers: Option<&Value>) -> Markup {
                      same over slices. Larger is slower; a dash is where there is nothing to tell."
                 }
                 (table)
+                @if let Some(facts) = peers.and_then(tables::facts) {
+                    h3 { "Inputs that end badly" }
+                    (facts)
+                }
             }
             None => {
                 p {

@@ -65,33 +65,25 @@ pub(in crate::samples) fn page(
     canvas.finish()
 }
 
-fn font(canvas: &Canvas, size: f64, bold: bool) -> Type {
-    Type {
-        size,
-        bold,
-        colour: canvas.palette.ink,
-    }
-}
-
 fn heading(canvas: &mut Canvas, solid: &Solid, case: &Case) {
     let class = case.expected.class;
     let name = case.sample.name();
-    let large = font(canvas, 26.0, true);
+    let large = Type::new(canvas.palette, 26.0, true);
     canvas.text([MARGIN, 46.0], &name, large);
     let coloured = Type {
         colour: class_colour(canvas.palette, class),
         ..large
     };
     canvas.text_before([WIDTH - MARGIN, 46.0], class.name(), coloured);
-    let plain = font(canvas, 15.0, false);
+    let plain = Type::new(canvas.palette, 15.0, false);
     let line = format!("solid {}: {}", solid.name, labels::phrase(&case.sample));
     canvas.text([MARGIN, 74.0], &line, plain);
 }
 
 fn name_axes(canvas: &mut Canvas, plane: Plane, solid: &Solid) {
-    let name = font(canvas, 15.0, true);
+    let name = Type::new(canvas.palette, 15.0, true);
     canvas.text([12.0, 24.0], plane.name(), name);
-    let axis = font(canvas, 13.0, false);
+    let axis = Type::new(canvas.palette, 13.0, false);
     canvas.text([46.0, 24.0], &format!("{} upwards", plane.across()), axis);
     let depth = if solid.shape.direction().sign() > 0.0 {
         "z to the right"
@@ -118,7 +110,7 @@ fn parameters(canvas: &mut Canvas, frustum: &Frustum, case: &Case, top: f64) {
     ];
     let (left, right) = (MARGIN + 130.0, WIDTH - MARGIN - 150.0);
     let x = |t: f64| left + t * (right - left);
-    let type_ = font(canvas, 15.0, false);
+    let type_ = Type::new(canvas.palette, 15.0, false);
     for (i, (name, interval, colour)) in rows.into_iter().enumerate() {
         let y = top + 28.0 * i as f64;
         canvas.text([MARGIN, y + 5.0], name, type_);
@@ -147,7 +139,7 @@ fn rounded(t: f64) -> String {
 
 /// The answer's sets, and why.
 fn words(canvas: &mut Canvas, case: &Case, top: f64) {
-    let type_ = font(canvas, 15.0, false);
+    let type_ = Type::new(canvas.palette, 15.0, false);
     let [enter, leave, coplanar] = sets(case.expected.part.as_ref());
     let mut said = Vec::new();
     for (verb, set) in [
