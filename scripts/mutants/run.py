@@ -29,7 +29,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 TREE = ROOT / "target/mutants/tree"
-COPIED = ["Cargo.toml", "Cargo.lock", "benches", "src", "tests"]
+COPIED = ["Cargo.toml", "Cargo.lock", "benches", "docs", "src", "tests"]
 # Quickest to fail first. The library's tests without those of tables.
 TESTS = [
     ("differential", []),
