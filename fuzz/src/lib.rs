@@ -8,30 +8,77 @@ mod build;
 mod case;
 #[path = "../../tests/check/mod.rs"]
 mod check;
+mod slices;
 
 use arbitrary::Unstructured;
 use case::Case;
+use frusta::report::{CaseLine, CaseSegment};
 use frusta::{
     CohenSutherland, CyrusBeck, Frustum, LiangBarsky, LiangBarskyVariant, Real, Segment,
     SegmentClipper, SixPlanes, VwProjection,
 };
 
-/// Exact answers about a structured case: all guarantees, in `f64` and `f32`.
+/// Exact answers about a structured case: all guarantees, in `f64` and `f32`, and
+/// from slices the bits of single calls.
 pub fn clip(data: &[u8]) {
     let Ok(Some(case)) = Case::new(&mut Unstructured::new(data)) else {
         return;
     };
     check::assert_guarantees(&case.frustum, &case.segment);
     check::assert_guarantees(&case.frustum, &case.in_singles());
+    slices::check(&case.frustum, &case.segment);
+    slices::check(&case.frustum, &case.in_singles());
 }
 
-/// Plain answers about any numbers: finite, in order, never a panic.
+/// Plain answers about any numbers: finite, in order, never a panic; slices as in
+/// [`clip`].
 pub fn plain(data: &[u8]) {
     let Ok(Some(case)) = Case::wild(&mut Unstructured::new(data)) else {
         return;
     };
     check_plain(&case.frustum, &case.segment);
     check_plain(&case.frustum, &case.in_singles());
+    slices::check(&case.frustum, &case.segment);
+    slices::check(&case.frustum, &case.in_singles());
+}
+
+/// A case as a line: what is written comes back with the same bits, and any text
+/// is read or refused in one short line, with the place.
+pub fn case_line(data: &[u8]) {
+    if let Ok(Some(case)) = Case::wild(&mut Unstructured::new(data)) {
+        same_when_read(CaseLine::new(&case.frustum, &case.segment));
+        same_when_read(CaseLine::new(&case.frustum, &case.in_singles()));
+    }
+    let text = String::from_utf8_lossy(data);
+    match text.parse::<CaseLine>() {
+        Ok(case) => same_when_read(case),
+        Err(refusal) => {
+            let (message, column) = (refusal.to_string(), refusal.column());
+            assert!(
+                (1..=text.chars().count() + 1).contains(&column),
+                "{message}"
+            );
+            assert!(
+                message.chars().count() < 400 && message.lines().count() == 1,
+                "{message}"
+            );
+        }
+    }
+}
+
+/// The text has every bit of a case, and says when two differ in a zero's sign. Only
+/// finite segments are cases.
+fn same_when_read(case: CaseLine) {
+    let line = case.to_string();
+    let finite = match case.segment {
+        CaseSegment::Single(segment) => segment.check_finite().is_ok(),
+        CaseSegment::Double(segment) => segment.check_finite().is_ok(),
+    };
+    let back = line.parse::<CaseLine>();
+    assert_eq!(back.is_ok(), finite, "{line}: {back:?}");
+    if let Ok(back) = back {
+        assert!(back == case && back.to_string() == line, "{line}\n{back}");
+    }
 }
 
 /// Constructors given any numbers; what they make must be usable.

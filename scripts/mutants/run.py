@@ -29,7 +29,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 TREE = ROOT / "target/mutants/tree"
-COPIED = ["Cargo.toml", "Cargo.lock", "benches", "src", "tests"]
+COPIED = ["Cargo.toml", "Cargo.lock", "benches", "docs", "src", "tests"]
 # Quickest to fail first. The library's tests without those of tables.
 TESTS = [
     ("differential", []),
@@ -40,7 +40,10 @@ TESTS = [
     ("guarantees", []),
     ("regressions", []),
     ("stages", []),
+    ("slices", []),
 ]
+# Slices are compared with single calls first.
+SLICE_TESTS = [("frusta", ["clip::slice::"]), *TESTS]
 SECONDS = 300
 
 SWITCH = """
@@ -147,7 +150,7 @@ def build():
     }
 
 
-def killer(binaries, number):
+def killer(binaries, number, tests=TESTS):
     """The first test binary to fail, or None."""
     env = os.environ | {
         "MUTANT": str(number),
@@ -156,7 +159,7 @@ def killer(binaries, number):
         "PROPTEST_DISABLE_FAILURE_PERSISTENCE": "1",
         "RUST_BACKTRACE": "0",
     }
-    for name, filters in TESTS:
+    for name, filters in tests:
         try:
             done = subprocess.run(
                 [binaries[name], "-q", *filters],
@@ -192,7 +195,8 @@ def main():
         if chosen and m.number not in chosen:
             continue
         began = time.monotonic()
-        by = killer(binaries, m.number)
+        of_slices = m.file.startswith("src/clip/slice/")
+        by = killer(binaries, m.number, SLICE_TESTS if of_slices else TESTS)
         verdict = "killed" if by else "equivalent" if m.equivalent else "SURVIVED"
         counts[verdict] += 1
         note = f"by {by}" if by else m.equivalent
