@@ -248,7 +248,8 @@ fn is_text(key: &str) -> bool {
 /// A peer's cell, whatever the file has there.
 fn value(key: &str, value: Option<&Value>) -> Markup {
     match value {
-        None | Some(Value::Null) => html! { td.t[is_text(key)] { "-" } },
+        None | Some(Value::Null) if is_text(key) => html! { td.t { "-" } },
+        None | Some(Value::Null) => html! { td { "-" } },
         Some(Value::Number(n)) => {
             let number = n.as_f64().unwrap_or(0.0);
             let text = match n.as_u64() {
