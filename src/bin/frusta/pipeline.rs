@@ -7,6 +7,7 @@
 //! jobs each, which bounds the memory.
 
 use crate::failure::Failure;
+use std::io;
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::thread;
 
@@ -54,10 +55,22 @@ fn start<'scope>(
     scope: &'scope thread::Scope<'scope, '_>,
     body: impl FnOnce() + Send + 'scope,
 ) -> Result<(), Failure> {
-    let started = thread::Builder::new().spawn_scoped(scope, body);
-    started
-        .map(drop)
-        .map_err(|e| Failure::new(format_args!("threads: {e}")))
+    let started = room_for_a_thread()
+        .and_then(|()| thread::Builder::new().spawn_scoped(scope, body))
+        .map(drop);
+    started.map_err(|e| Failure::new(format_args!("threads: {e}")))
+}
+
+/// A thread's stack, and as much for what it and those that are just starting need
+/// at once.
+const THREAD_ROOM: usize = 4 << 20;
+
+/// Whether there is memory for one more thread. The standard library asks too late
+/// for a part of it: a thread that has a stack but no room for its signals' aborts
+/// the program.
+pub(crate) fn room_for_a_thread() -> io::Result<()> {
+    let room = Vec::<u8>::new().try_reserve_exact(THREAD_ROOM);
+    room.map_err(|_| io::Error::from(io::ErrorKind::OutOfMemory))
 }
 
 fn work<J, R>(
