@@ -35,6 +35,7 @@ mod reference;
 mod round;
 mod violation;
 
+#[cfg(feature = "report")]
 pub(crate) use check::is_mirrored;
 pub use check::{check, check_idempotent, check_swapped};
 pub use gauge::Gauge;
