@@ -195,7 +195,8 @@ fn all_families(page: &Page<'_>) -> Markup {
         }
         p.soft {
             "Time ratios are geometric means over the families. f32 tiers only run on families that \
-             make sense in f32. Errors are of answers whose class is right. Headings sort."
+             make sense in f32. Errors are of answers whose class is right; swapped: other answers \
+             for swapped ends; again: other answers when clipped again. Headings sort."
         }
     }
 }
