@@ -339,17 +339,9 @@ impl<S: Simd, T: Real> Run<'_, S, T> {
     /// One by one. The first that is queued of those that are not finite is the
     /// first of all: certificates never see them.
     fn unsure(&mut self) -> Result<(), NonFiniteAt> {
-        let Chunk {
-            frustum,
-            segments,
-            clips,
-        } = &mut self.chunk;
-        for &item in self.queues.unsure.items() {
-            let index = item as usize;
-            let segment = &segments[index];
-            clips[index] = exact::vw::clip(frustum, segment, self.accuracy, self.counts)
-                .map_err(|found| NonFiniteAt { index, found })?;
-        }
-        Ok(())
+        let items = self.queues.unsure.items().iter().map(|&item| item as usize);
+        self.chunk.clip_singly(items, |frustum, segment| {
+            exact::vw::clip(frustum, segment, self.accuracy, self.counts)
+        })
     }
 }

@@ -77,6 +77,29 @@ struct Chunk<'a, T> {
     clips: &'a mut [SegmentClip<T>],
 }
 
+impl<T: Real> Chunk<'_, T> {
+    /// Clips some of the segments one by one, up to the first that is not finite.
+    fn clip_singly(
+        &mut self,
+        items: impl IntoIterator<Item = usize>,
+        mut clip: impl FnMut(&Frustum, &Segment<T>) -> Result<SegmentClip<T>, NonFinite>,
+    ) -> Result<(), NonFiniteAt> {
+        for index in items {
+            self.clips[index] = clip(self.frustum, &self.segments[index])
+                .map_err(|found| NonFiniteAt { index, found })?;
+        }
+        Ok(())
+    }
+
+    /// All of them, for scalars that no registers are made for.
+    fn clip_all_singly(
+        &mut self,
+        clip: impl FnMut(&Frustum, &Segment<T>) -> Result<SegmentClip<T>, NonFinite>,
+    ) -> Result<(), NonFiniteAt> {
+        self.clip_singly(0..self.segments.len(), clip)
+    }
+}
+
 /// Clips by exact V/W. On an error `clips` is empty.
 pub(crate) fn clip_exact<T: Real>(
     level: Level,
@@ -88,9 +111,9 @@ pub(crate) fn clip_exact<T: Real>(
 ) -> Result<(), NonFiniteAt> {
     let mut queues = Queues::new();
     let kernels = T::pick(&Both);
-    in_chunks(frustum, segments, clips, |chunk| match kernels {
+    in_chunks(frustum, segments, clips, |mut chunk| match kernels {
         Some(kernels) => (kernels.exact)(level, chunk, accuracy, &mut queues, counts),
-        None => singly(chunk, |f, s| exact::vw::clip(f, s, accuracy, counts)),
+        None => chunk.clip_all_singly(|f, s| exact::vw::clip(f, s, accuracy, counts)),
     })
 }
 
@@ -103,9 +126,9 @@ pub(crate) fn clip_plain<T: Real>(
 ) -> Result<(), NonFiniteAt> {
     let mut queues = Queues::new();
     let kernels = T::pick(&Both).zip(frustum.plain());
-    in_chunks(frustum, segments, clips, |chunk| match kernels {
+    in_chunks(frustum, segments, clips, |mut chunk| match kernels {
         Some((kernels, plain)) => (kernels.plain)(level, chunk, plain, &mut queues),
-        None => singly(chunk, vw::clip_plain),
+        None => chunk.clip_all_singly(vw::clip_plain),
     })
 }
 
@@ -169,18 +192,6 @@ macro_rules! kernels {
 kernels! {
     f32 exact_singles plain_singles singles;
     f64 exact_doubles plain_doubles doubles;
-}
-
-/// For scalars that no registers are made for.
-fn singly<T: Real>(
-    chunk: Chunk<'_, T>,
-    mut clip: impl FnMut(&Frustum, &Segment<T>) -> Result<SegmentClip<T>, NonFinite>,
-) -> Result<(), NonFiniteAt> {
-    for (index, segment) in chunk.segments.iter().enumerate() {
-        chunk.clips[index] =
-            clip(chunk.frustum, segment).map_err(|found| NonFiniteAt { index, found })?;
-    }
-    Ok(())
 }
 
 fn in_chunks<T: Real>(

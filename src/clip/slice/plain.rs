@@ -225,17 +225,8 @@ where
 
     /// One by one.
     fn unsure(&mut self) -> Result<(), NonFiniteAt> {
-        let Chunk {
-            frustum,
-            segments,
-            clips,
-        } = &mut self.chunk;
-        for &item in self.queues.unsure.items() {
-            let index = item as usize;
-            clips[index] = vw::clip_plain(frustum, &segments[index])
-                .map_err(|found| NonFiniteAt { index, found })?;
-        }
-        Ok(())
+        let items = self.queues.unsure.items().iter().map(|&item| item as usize);
+        self.chunk.clip_singly(items, vw::clip_plain)
     }
 }
 
