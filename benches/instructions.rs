@@ -18,11 +18,7 @@
 //! `algorithm, tier, mix`, and, for a segment, `instructions, branches,
 //! mispredicted_simulated` and `mispredicted` (null where nothing counts them).
 
-#[allow(
-    dead_code,
-    unused_imports,
-    reason = "the other benchmarks use more of it"
-)]
+#[allow(dead_code, unused_imports, reason = "other benches use more")]
 mod mixes;
 
 use frusta::samples::Placement;
