@@ -5,6 +5,7 @@
 //! | [`math`] | points, segments, rectangles, poses |
 //! | [`frustum`] | [`Frustum`] and its constructors: [`Camera`], [`ViewProjection`], [`SixPoints`] |
 //! | [`clip`] | [`Frustum::clip_segment`], [`Frustum::clip_segments`], and the algorithms behind [`SegmentClipper`] |
+//! | [`volume`] | boxes, oriented boxes, spheres: outside, crossing or inside a frustum |
 //! | [`guarantees`] | a page: what is guaranteed, and how it is known |
 //! | [`samples`] | the 78 singular samples, and seeded families of hard cases |
 //! | `oracle` | (feature `oracle`) the truth by rational arithmetic |
@@ -62,6 +63,8 @@ pub mod oracle;
 #[cfg(feature = "report")]
 pub mod report;
 pub mod samples;
+mod simd;
+pub mod volume;
 
 pub use clip::{
     Accuracy, Arithmetic, Class, CohenSutherland, CyrusBeck, LiangBarsky, LiangBarskyVariant, Part,
@@ -73,6 +76,7 @@ pub use frustum::{
     Shape, SixPoints, Trapezoid, TrapezoidEnd, ViewProjection,
 };
 pub use math::{Axis, End, Interval, NonFinite, NonFiniteAt, Pose, Real, Rect, Segment, Vec3};
+pub use volume::{Aabb, Containment, Obb, Sphere, Volume, VolumeError, VolumeErrorAt};
 
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]

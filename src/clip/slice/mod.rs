@@ -44,31 +44,9 @@ use super::result::{Accuracy, SegmentClip, StageCounts};
 use super::{exact, vw};
 use crate::frustum::{Form, Frustum, General, PlainFrustum, Symmetric};
 use crate::math::{NonFinite, NonFiniteAt, PerReal, Real, Segment};
+use crate::simd::at_width;
 use fearless_simd::{Level, Simd};
 use queue::{CHUNK, Queues};
-
-/// Runs what is generic over the vector width. On x86 with one of two: more than
-/// four lanes there are not, and what SSE4.2 adds is not used.
-#[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
-macro_rules! at_width {
-    ($level:expr, $simd:ident => $run:expr) => {
-        if let Some($simd) = $level.as_avx2() {
-            $simd.vectorize(
-                #[inline(always)]
-                || $run,
-            )
-        } else {
-            let $simd = $level.as_sse2().expect("the crate needs SSE2");
-            $run
-        }
-    };
-}
-#[cfg(not(any(target_arch = "x86", target_arch = "x86_64")))]
-macro_rules! at_width {
-    ($level:expr, $simd:ident => $run:expr) => {
-        fearless_simd::dispatch!($level, $simd => $run)
-    };
-}
 
 /// Segments of a chunk, and where their clips go: as many, all outside.
 struct Chunk<'a, T> {

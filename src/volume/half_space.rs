@@ -1,0 +1,178 @@
+//! A half space `n . p + d >= 0` that is known exactly, and its value at a point in
+//! stages, each of which hands on what it cannot settle.
+//!
+//! # Exactly
+//! The four numbers are sums of products of a frustum's doubles, formed in integers,
+//! times a power of two that brings the largest of `|n_j|` into `1/2 <= |n_j| < 1`. So
+//! a sign, and where `n` points, is known without error, for any frustum.
+//!
+//! # Rounded
+//! With u = 2^-53, S >= |p_x| + |p_y| + |p_z| and N the four numbers rounded: a number
+//! has a relative error of u, a product adds u, three sums add u each. What is
+//! multiplied is below 1, so
+//! ```text
+//! |g~ - g| <= 5.01 u S + 2.01 u |d|
+//! ```
+//! and the threshold is `T = 8 u S + 4 u |d| + FLOOR`: its own rounding takes less than
+//! what was added, and FLOOR is more than underflow can do. In `f32`, with u = 2^-24,
+//! likewise.
+//!
+//! # To 106 bits
+//! With a number as a sum of two doubles within u^2, a product adds 3 u^2, three sums
+//! of two doubles each add 3 u^2 (`exact/double_double.rs`): 13.1 u^2 (S + |d|). The
+//! threshold is 2^-48 of the other, `2^-98 S + 2^-99 |d| + FLOOR`, more than twice that.
+//!
+//! A comparison is written with `>`, so that NaN and infinity fail it.
+
+use super::VolumeCounts;
+use crate::exact::Number;
+use crate::exact::double_double::Dd;
+use crate::exact::dyadic::Dyadic;
+use crate::exact::expansion::{Expansion, in_safe_range};
+use crate::math::{Real, Vec3};
+use std::cmp::Ordering;
+
+/// 8 u and 4 u.
+const SIZE: f64 = 8.0 * f64::UNIT_ROUNDOFF;
+const OFFSET: f64 = 4.0 * f64::UNIT_ROUNDOFF;
+/// From the rounded values' threshold to that of values of 106 bits: 2^-48.
+const PRECISE: f64 = 3.552713678800501e-15;
+/// 2^-900: above what underflow does, below every size.
+const FLOOR: f64 = 1.183052186166774e-271;
+/// 2^900: below it nothing overflows on the way.
+pub(super) const MOST: f64 = 8.452712498170644e270;
+
+/// The points with `normal . p + offset >= 0`.
+#[derive(Clone, Debug)]
+pub(super) struct HalfSpace {
+    exact: [Dyadic; 4],
+    /// Rounded: normal and offset.
+    pub(super) high: [f64; 4],
+    /// What that rounding took, rounded.
+    low: [f64; 4],
+    /// Whether the two sums are the numbers themselves, and fit expansions.
+    expands: bool,
+    /// The length of the normal, within 2 u.
+    pub(super) length: f64,
+    /// The part of the threshold that does not depend on the point; infinite where
+    /// nothing is certain.
+    constant: f64,
+}
+
+impl HalfSpace {
+    /// From a normal and an offset; `None` for the zero vector.
+    pub(super) fn new(numbers: [Dyadic; 4]) -> Option<Self> {
+        let top = numbers[..3].iter().filter_map(Dyadic::top).max()?;
+        let exact = numbers.map(|n| n.shifted(-top));
+        let one = Dyadic::from(1.0);
+        let rounded = |n: &Dyadic| n.round_quotient::<f64>(&one);
+        let high = exact.each_ref().map(rounded);
+        let rests: [Dyadic; 4] = std::array::from_fn(|i| match high[i].is_finite() {
+            true => &exact[i] - &Dyadic::from(high[i]),
+            false => Dyadic::from(0.0),
+        });
+        let low = rests.each_ref().map(rounded);
+        let whole = |i: usize| (&rests[i] - &Dyadic::from(low[i])).sign().is_eq();
+        let fits = high.iter().chain(&low).all(|&v| in_safe_range(v));
+        let square = (0..3).fold(Dyadic::from(0.0), |sum, j| &sum + &(&exact[j] * &exact[j]));
+        let certain = high[3].abs() < MOST;
+        Some(Self {
+            expands: fits && (0..4).all(whole),
+            length: rounded(&square).sqrt(),
+            constant: if certain {
+                OFFSET * high[3].abs() + FLOOR
+            } else {
+                f64::INFINITY
+            },
+            exact,
+            high,
+            low,
+        })
+    }
+
+    /// Which way the normal points along a coordinate, exactly.
+    pub(super) fn points(&self, axis: usize) -> Ordering {
+        self.exact[axis].sign()
+    }
+
+    /// The rounded value at a point.
+    #[inline(always)]
+    pub(super) fn value(&self, p: Vec3<f64>) -> f64 {
+        let [a, b, c, d] = self.high;
+        a * p.x + b * p.y + (c * p.z + d)
+    }
+
+    /// How far it may be off, where the coordinates' magnitudes have a sum of at most
+    /// `size`.
+    #[inline(always)]
+    pub(super) fn threshold(&self, size: f64) -> f64 {
+        SIZE * size + self.constant
+    }
+
+    /// The sign of the value at a point that the rounded value leaves open.
+    #[cold]
+    pub(super) fn sign_beyond_filter(&self, p: Vec3<f64>, counts: &mut VolumeCounts) -> Ordering {
+        let size = size(p);
+        if size < MOST {
+            let value = self.precise(p);
+            if value.abs() > PRECISE * self.threshold(size) {
+                counts.double_doubles += 1;
+                return value.total_cmp(&0.0);
+            }
+        }
+        if self.expands
+            && p.to_array().into_iter().all(in_safe_range)
+            && let Ok(value) = self.expansion(p)
+        {
+            counts.expansions += 1;
+            return value.sign();
+        }
+        counts.integers += 1;
+        self.integer(p).sign()
+    }
+
+    /// The value to 106 bits, its upper part.
+    fn precise(&self, p: Vec3<f64>) -> f64 {
+        let number = |i: usize| Dd::new(self.high[i], self.low[i]);
+        let [x, y, z] = [0, 1, 2].map(|j| number(j).mul_f64(p[j]));
+        x.add(y).add(z).add(number(3)).hi
+    }
+
+    fn expansion(&self, p: Vec3<f64>) -> Result<Expansion, <Expansion as Number>::NoRoom> {
+        let number = |i: usize| {
+            Expansion::from_f64(self.low[i]).add(&Expansion::from_f64(self.high[i]))
+        };
+        let mut sum = number(3)?;
+        for j in 0..3 {
+            if p[j] != 0.0 {
+                sum = sum.add(&number(j)?.mul(&Expansion::from_f64(p[j]))?)?;
+            }
+        }
+        Ok(sum)
+    }
+
+    /// The value, exactly.
+    pub(super) fn integer(&self, p: Vec3<f64>) -> Dyadic {
+        &self.along(p) + &self.exact[3]
+    }
+
+    /// The inner product with the normal, exactly.
+    pub(super) fn along(&self, v: Vec3<f64>) -> Dyadic {
+        (0..3).fold(Dyadic::from(0.0), |sum, j| {
+            &sum + &(&self.exact[j] * &Dyadic::from(v[j]))
+        })
+    }
+
+    /// The square of the normal's length, exactly.
+    pub(super) fn square(&self) -> Dyadic {
+        (0..3).fold(Dyadic::from(0.0), |sum, j| {
+            &sum + &(&self.exact[j] * &self.exact[j])
+        })
+    }
+}
+
+/// The sum of the coordinates' magnitudes.
+#[inline(always)]
+pub(super) fn size(p: Vec3<f64>) -> f64 {
+    p.x.abs() + p.y.abs() + p.z.abs()
+}

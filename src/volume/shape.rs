@@ -1,0 +1,414 @@
+//! Bounding volumes: closed sets that stored numbers define exactly.
+
+use crate::math::{Axis, Real, Short, Vec3};
+use std::fmt;
+
+/// An axis-aligned box: the points `p` with `min <= p <= max` in every coordinate.
+///
+/// It may be flat, an edge or a point; it is not empty.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(bound(
+        serialize = "T: Real + serde::Serialize",
+        deserialize = "T: Real + serde::Deserialize<'de>"
+    ))
+)]
+pub struct Aabb<T> {
+    /// The least coordinates.
+    pub min: Vec3<T>,
+    /// The greatest coordinates.
+    pub max: Vec3<T>,
+}
+
+/// An oriented box: the points `center + s u + t v + w n` with `s, t, w` in `-1..=1`
+/// and `u, v, n` the half axes.
+///
+/// These need be neither of one length nor at right angles, and may be zero.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(bound(
+        serialize = "T: Real + serde::Serialize",
+        deserialize = "T: Real + serde::Deserialize<'de>"
+    ))
+)]
+pub struct Obb<T> {
+    /// The middle.
+    pub center: Vec3<T>,
+    /// From the middle to the middles of three faces.
+    pub half_axes: [Vec3<T>; 3],
+}
+
+/// A ball: the points no farther than `radius` from `center`.
+///
+/// It may be a point.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(bound(
+        serialize = "T: Real + serde::Serialize",
+        deserialize = "T: Real + serde::Deserialize<'de>"
+    ))
+)]
+pub struct Sphere<T> {
+    /// The middle.
+    pub center: Vec3<T>,
+    /// Not negative.
+    pub radius: T,
+}
+
+/// Any bounding volume, in `f64`: `f32` is promoted exactly.
+///
+/// Made by `From` from [`Aabb`], [`Obb`], [`Sphere`] and, for a point, [`Vec3`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Volume {
+    /// An axis-aligned box.
+    Aabb(Aabb<f64>),
+    /// An oriented box.
+    Obb(Obb<f64>),
+    /// A ball.
+    Sphere(Sphere<f64>),
+}
+
+/// How a bounding volume lies to a frustum.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "lowercase"))]
+pub enum Containment {
+    /// They have no point in common.
+    Outside,
+    /// Neither of the others.
+    Crossing,
+    /// The frustum contains the volume; that may touch the surface from inside.
+    Inside,
+}
+
+impl Containment {
+    /// All three.
+    pub const ALL: [Containment; 3] = [
+        Containment::Outside,
+        Containment::Crossing,
+        Containment::Inside,
+    ];
+
+    /// In lower case.
+    pub const fn name(self) -> &'static str {
+        ["outside", "crossing", "inside"][self as usize]
+    }
+}
+
+impl fmt::Display for Containment {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+/// Why numbers are no bounding volume.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum VolumeError {
+    /// A number is infinite or NaN.
+    NonFinite {
+        /// Which number.
+        what: &'static str,
+        /// The value found.
+        value: f64,
+    },
+    /// A box's `min` is greater than its `max`: an empty set, which has no place.
+    Inverted {
+        /// In which coordinate.
+        axis: Axis,
+        /// The greater number.
+        min: f64,
+        /// The less one.
+        max: f64,
+    },
+    /// A sphere's radius is negative.
+    NegativeRadius {
+        /// The radius.
+        radius: f64,
+    },
+}
+
+impl fmt::Display for VolumeError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            Self::NonFinite { what, value } => {
+                write!(f, "{what} = {value}; a bounding volume must be finite")
+            }
+            Self::Inverted { axis, min, max } => write!(
+                f,
+                "min.{axis} = {} is greater than max.{axis} = {}; the box is empty",
+                Short(min),
+                Short(max)
+            ),
+            Self::NegativeRadius { radius } => {
+                write!(f, "radius = {}; it must not be negative", Short(radius))
+            }
+        }
+    }
+}
+
+impl std::error::Error for VolumeError {}
+
+/// A volume in a slice is none.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct VolumeErrorAt {
+    /// Its place in the slice.
+    pub index: usize,
+    /// What is wrong with it.
+    pub error: VolumeError,
+}
+
+impl fmt::Display for VolumeErrorAt {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "volume {}: {}", self.index, self.error)
+    }
+}
+
+impl std::error::Error for VolumeErrorAt {
+    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
+        Some(&self.error)
+    }
+}
+
+const MIN: [&str; 3] = ["min.x", "min.y", "min.z"];
+const MAX: [&str; 3] = ["max.x", "max.y", "max.z"];
+const CENTER: [&str; 3] = ["center.x", "center.y", "center.z"];
+const HALF_AXES: [[&str; 3]; 3] = [
+    ["half_axes[0].x", "half_axes[0].y", "half_axes[0].z"],
+    ["half_axes[1].x", "half_axes[1].y", "half_axes[1].z"],
+    ["half_axes[2].x", "half_axes[2].y", "half_axes[2].z"],
+];
+
+fn check_finite<T: Real>(names: [&'static str; 3], v: Vec3<T>) -> Result<(), VolumeError> {
+    for (what, value) in names.into_iter().zip(v.to_f64().to_array()) {
+        if !value.is_finite() {
+            return Err(VolumeError::NonFinite { what, value });
+        }
+    }
+    Ok(())
+}
+
+impl<T: Real> Aabb<T> {
+    /// From the least and the greatest coordinates.
+    ///
+    /// ```
+    /// use frusta::Aabb;
+    /// let unit = Aabb::new([0.0, 0.0, 0.0], [1.0, 1.0, 1.0]);
+    /// assert!(unit.check().is_ok());
+    /// assert_eq!(Aabb::around([[1.0, 0.0, 1.0], [0.0, 1.0, 0.0]]), Some(unit));
+    /// let empty = Aabb::new([0.0, 2.0, 0.0], [1.0, 1.0, 1.0]).check().unwrap_err();
+    /// assert_eq!(empty.to_string(), "min.y = 2 is greater than max.y = 1; the box is empty");
+    /// ```
+    #[must_use]
+    #[inline(always)]
+    pub fn new(min: impl Into<Vec3<T>>, max: impl Into<Vec3<T>>) -> Self {
+        Self {
+            min: min.into(),
+            max: max.into(),
+        }
+    }
+
+    /// The least box that holds these points; `None` without any. A NaN among the
+    /// coordinates may be lost.
+    #[must_use]
+    pub fn around<P: Into<Vec3<T>>>(points: impl IntoIterator<Item = P>) -> Option<Self> {
+        let mut points = points.into_iter().map(Into::into);
+        let first = points.next()?;
+        let less = |a: T, b: T| if b < a { b } else { a };
+        let more = |a: T, b: T| if b > a { b } else { a };
+        Some(points.fold(Self::new(first, first), |all, p| Self {
+            min: Vec3::new(
+                less(all.min.x, p.x),
+                less(all.min.y, p.y),
+                less(all.min.z, p.z),
+            ),
+            max: Vec3::new(
+                more(all.max.x, p.x),
+                more(all.max.y, p.y),
+                more(all.max.z, p.z),
+            ),
+        }))
+    }
+
+    /// The same box in `f64`; always exact.
+    #[must_use]
+    #[inline(always)]
+    pub fn to_f64(self) -> Aabb<f64> {
+        Aabb::new(self.min.to_f64(), self.max.to_f64())
+    }
+
+    /// Checks that it is a box.
+    ///
+    /// # Errors
+    /// The first number that is infinite or NaN; else the first coordinate in which
+    /// `min` is greater than `max`.
+    pub fn check(&self) -> Result<(), VolumeError> {
+        check_finite(MIN, self.min)?;
+        check_finite(MAX, self.max)?;
+        for axis in Axis::ALL {
+            let [min, max] = [self.min, self.max].map(|v| v[axis as usize].to_f64());
+            if min > max {
+                return Err(VolumeError::Inverted { axis, min, max });
+            }
+        }
+        Ok(())
+    }
+}
+
+impl<T: Real> Obb<T> {
+    /// From the middle and the half axes.
+    ///
+    /// ```
+    /// use frusta::Obb;
+    /// let rod = Obb::new([0.0, 0.0, 5.0], [[3.0, 4.0, 0.0], [-0.4, 0.3, 0.0], [0.0, 0.0, 0.5]]);
+    /// assert!(rod.check().is_ok());
+    /// ```
+    #[must_use]
+    #[inline(always)]
+    pub fn new(center: impl Into<Vec3<T>>, half_axes: [impl Into<Vec3<T>>; 3]) -> Self {
+        Self {
+            center: center.into(),
+            half_axes: half_axes.map(Into::into),
+        }
+    }
+
+    /// The same box in `f64`; always exact.
+    #[must_use]
+    #[inline(always)]
+    pub fn to_f64(self) -> Obb<f64> {
+        Obb {
+            center: self.center.to_f64(),
+            half_axes: self.half_axes.map(Vec3::to_f64),
+        }
+    }
+
+    /// Checks that it is finite.
+    ///
+    /// # Errors
+    /// The first number that is infinite or NaN.
+    pub fn check(&self) -> Result<(), VolumeError> {
+        check_finite(CENTER, self.center)?;
+        for (names, axis) in HALF_AXES.into_iter().zip(self.half_axes) {
+            check_finite(names, axis)?;
+        }
+        Ok(())
+    }
+}
+
+impl<T: Real> Sphere<T> {
+    /// From the middle and the radius.
+    ///
+    /// ```
+    /// use frusta::Sphere;
+    /// assert!(Sphere::new([0.0, 0.0, 5.0], 0.0).check().is_ok());
+    /// assert!(Sphere::new([0.0, 0.0, 5.0], -1.0).check().is_err());
+    /// assert!(Sphere::new([0.0, f32::NAN, 5.0], 1.0).check().is_err());
+    /// ```
+    #[must_use]
+    #[inline(always)]
+    pub fn new(center: impl Into<Vec3<T>>, radius: T) -> Self {
+        Self {
+            center: center.into(),
+            radius,
+        }
+    }
+
+    /// The same ball in `f64`; always exact.
+    #[must_use]
+    #[inline(always)]
+    pub fn to_f64(self) -> Sphere<f64> {
+        Sphere {
+            center: self.center.to_f64(),
+            radius: self.radius.to_f64(),
+        }
+    }
+
+    /// Checks that it is a ball.
+    ///
+    /// # Errors
+    /// The first number that is infinite or NaN; else a negative radius.
+    pub fn check(&self) -> Result<(), VolumeError> {
+        check_finite(CENTER, self.center)?;
+        let radius = self.radius.to_f64();
+        if !radius.is_finite() {
+            let what = "radius";
+            return Err(VolumeError::NonFinite {
+                what,
+                value: radius,
+            });
+        }
+        if radius < 0.0 {
+            return Err(VolumeError::NegativeRadius { radius });
+        }
+        Ok(())
+    }
+}
+
+impl Volume {
+    /// Checks that it is one: as [`Aabb::check`], [`Obb::check`], [`Sphere::check`].
+    ///
+    /// # Errors
+    /// What is wrong with it.
+    #[inline]
+    pub fn check(&self) -> Result<(), VolumeError> {
+        match self {
+            Volume::Aabb(v) => v.check(),
+            Volume::Obb(v) => v.check(),
+            Volume::Sphere(v) => v.check(),
+        }
+    }
+}
+
+impl<T: Real> From<Aabb<T>> for Volume {
+    #[inline(always)]
+    fn from(v: Aabb<T>) -> Self {
+        Volume::Aabb(v.to_f64())
+    }
+}
+
+impl<T: Real> From<Obb<T>> for Volume {
+    #[inline(always)]
+    fn from(v: Obb<T>) -> Self {
+        Volume::Obb(v.to_f64())
+    }
+}
+
+impl<T: Real> From<Sphere<T>> for Volume {
+    #[inline(always)]
+    fn from(v: Sphere<T>) -> Self {
+        Volume::Sphere(v.to_f64())
+    }
+}
+
+/// A point is a box of no size.
+impl<T: Real> From<Vec3<T>> for Volume {
+    #[inline(always)]
+    fn from(p: Vec3<T>) -> Self {
+        Volume::Aabb(Aabb::new(p.to_f64(), p.to_f64()))
+    }
+}
+
+impl<T: Real> From<Aabb<T>> for Obb<T> {
+    /// The nearest oriented box: middle and half axes are rounded.
+    fn from(v: Aabb<T>) -> Self {
+        let half = T::from_f64(0.5);
+        let middle = |a: T, b: T| a * half + b * half;
+        let extent = |a: T, b: T| b * half - a * half;
+        let zero = T::ZERO;
+        let (a, b) = (v.min, v.max);
+        Self {
+            center: Vec3::new(middle(a.x, b.x), middle(a.y, b.y), middle(a.z, b.z)),
+            half_axes: [
+                Vec3::new(extent(a.x, b.x), zero, zero),
+                Vec3::new(zero, extent(a.y, b.y), zero),
+                Vec3::new(zero, zero, extent(a.z, b.z)),
+            ],
+        }
+    }
+}
