@@ -76,7 +76,9 @@ pub use frustum::{
     Shape, SixPoints, Trapezoid, TrapezoidEnd, ViewProjection,
 };
 pub use math::{Axis, End, Interval, NonFinite, NonFiniteAt, Pose, Real, Rect, Segment, Vec3};
-pub use volume::{Aabb, Containment, Obb, Sphere, Volume, VolumeError, VolumeErrorAt};
+pub use volume::{
+    Aabb, Among, Containment, Culler, Obb, Sphere, Volume, VolumeCounts, VolumeError, VolumeErrorAt,
+};
 
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]

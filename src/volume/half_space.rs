@@ -19,8 +19,8 @@
 //!
 //! # To 106 bits
 //! With a number as a sum of two doubles within u^2, a product adds 3 u^2, three sums
-//! of two doubles each add 3 u^2 (`exact/double_double.rs`): 13.1 u^2 (S + |d|). The
-//! threshold is 2^-48 of the other, `2^-98 S + 2^-99 |d| + FLOOR`, more than twice that.
+//! of two doubles each add 3 u^2 (`exact/double_double.rs`): 13.1 u^2 S + 4.1 u^2 |d|. The
+//! threshold is 2^-51 of the other: 32 u^2 S + 16 u^2 |d| + 2^-51 FLOOR.
 //!
 //! A comparison is written with `>`, so that NaN and infinity fail it.
 
@@ -35,8 +35,8 @@ use std::cmp::Ordering;
 /// 8 u and 4 u.
 const SIZE: f64 = 8.0 * f64::UNIT_ROUNDOFF;
 const OFFSET: f64 = 4.0 * f64::UNIT_ROUNDOFF;
-/// From the rounded values' threshold to that of values of 106 bits: 2^-48.
-const PRECISE: f64 = 3.552713678800501e-15;
+/// From the rounded values' threshold to that of values of 106 bits: 2^-51.
+const PRECISE: f64 = 4.440892098500626e-16;
 /// 2^-900: above what underflow does, below every size.
 const FLOOR: f64 = 1.183052186166774e-271;
 /// 2^900: below it nothing overflows on the way.
@@ -139,9 +139,8 @@ impl HalfSpace {
     }
 
     fn expansion(&self, p: Vec3<f64>) -> Result<Expansion, <Expansion as Number>::NoRoom> {
-        let number = |i: usize| {
-            Expansion::from_f64(self.low[i]).add(&Expansion::from_f64(self.high[i]))
-        };
+        let number =
+            |i: usize| Expansion::from_f64(self.low[i]).add(&Expansion::from_f64(self.high[i]));
         let mut sum = number(3)?;
         for j in 0..3 {
             if p[j] != 0.0 {

@@ -1,5 +1,21 @@
-//! Bounding volumes against a frustum: outside, crossing or inside.
+//! Bounding volumes against a frustum: outside, crossing or inside, exactly.
+//!
+//! [`Culler`] is a frustum made ready for it. [`Culler::classify`] goes plane by plane;
+//! [`Culler::classify_among`] does so for trees, with face masks and hints.
+//!
+//! ```text
+//! shape       the volumes, and why numbers are none
+//! half_space  a half space that is known exactly, and signs in stages
+//! extent      how far a volume reaches along a normal
+//! culler      plane by plane
+//! ```
 
+mod counts;
+mod culler;
+mod extent;
+mod half_space;
 mod shape;
 
+pub use counts::VolumeCounts;
+pub use culler::{Among, Culler};
 pub use shape::{Aabb, Containment, Obb, Sphere, Volume, VolumeError, VolumeErrorAt};

@@ -1,0 +1,222 @@
+//! Plane by plane: the conservative test of a volume, decided exactly.
+//!
+//! # Source
+//! Assarsson and Moller, "Optimized view frustum culling algorithms for bounding
+//! boxes" (2000): the corners farthest along a plane's normal, plane masks, the plane
+//! that rejected last time first.
+//!
+//! # Idea
+//! ```text
+//! for each face that is asked for, the last one that rejected first:
+//!     greatest value over the volume < 0     outside
+//!     least value over the volume < 0        crossing, and this face is crossed
+//! no face crossed: inside
+//! ```
+//! *Outside* and *inside* are what they say. *Crossing* may be wrong in one way: a
+//! volume beyond an edge or a corner may be apart from the frustum and outside of no
+//! face. What it costs to know is in [`super::apart`].
+//!
+//! # Degenerate volumes
+//! A box of no size is a point, flat ones are rectangles and edges; nothing is divided.
+
+use super::extent::{Extent, with_extent};
+use super::half_space::HalfSpace;
+use super::shape::{Volume, VolumeError};
+use super::{Containment, VolumeCounts};
+use crate::exact::Number;
+use crate::exact::dyadic::Dyadic;
+use crate::frustum::boundary::boundary;
+use crate::frustum::{Face, FaceSet, Frustum};
+use crate::math::Vec3;
+
+/// A frustum made ready to be asked about volumes.
+///
+/// It answers as the [`Frustum`] that it is made from would, which is a closed set; to
+/// make it takes some ten microseconds.
+///
+/// ```
+/// use frusta::{Aabb, Containment, Culler, EndRect, Frustum, Pose, Shape, Sphere};
+/// # let near = EndRect::new(1.0, -1.0, 1.0, -1.0, 1.0);
+/// # let far = EndRect::new(3.0, -3.0, 3.0, -3.0, 3.0);
+/// # let frustum = Frustum::new(Pose::IDENTITY, Shape::Finite { near, far })?;
+/// let culler = Culler::new(&frustum);
+/// let inside = Aabb::new([-1.0, -1.0, 1.0], [1.0, 1.0, 3.0]);
+/// assert_eq!(culler.classify(inside)?, Containment::Inside);
+/// // It touches the face at z = 3 from outside.
+/// let touching = Sphere::new([0.0_f32, 0.0, 5.0], 2.0);
+/// assert_eq!(culler.classify(touching)?, Containment::Crossing);
+/// let beyond = Sphere::new([0.0_f32, 0.0, 5.0], 1.999_999_9);
+/// assert_eq!(culler.classify(beyond)?, Containment::Outside);
+/// assert!(culler.classify(Sphere::new([0.0, 0.0, f64::NAN], 1.0)).is_err());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Culler {
+    pub(super) frustum: Frustum,
+    /// The faces' half spaces, in the order of [`Frustum::faces`].
+    pub(super) half_spaces: Box<[HalfSpace]>,
+}
+
+/// How a volume lies to a frustum, and to which of its faces it still has to be held.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Among {
+    /// As of all faces, if the volume lies inside of those that were not asked for.
+    pub containment: Containment,
+    /// The faces asked for that the volume is not wholly inside of: what is in it has
+    /// to be held to these alone. All that were asked for if it is outside.
+    pub faces: FaceSet,
+}
+
+/// A face's half space from values of its boundary function, which is linear.
+fn half_space(frustum: &Frustum, face: Face) -> Option<HalfSpace> {
+    let at = |p: [f64; 3]| {
+        let Ok(value) = boundary::<Dyadic>(frustum, face, Vec3::from(p));
+        value
+    };
+    let origin = at([0.0; 3]);
+    let along = |p| &at(p) - &origin;
+    let normal = [
+        along([1.0, 0.0, 0.0]),
+        along([0.0, 1.0, 0.0]),
+        along([0.0, 0.0, 1.0]),
+    ];
+    let [x, y, z] = normal;
+    HalfSpace::new([x, y, z, origin])
+}
+
+impl Culler {
+    /// Prepares a frustum's faces.
+    #[must_use]
+    pub fn new(frustum: &Frustum) -> Self {
+        let faces = frustum.faces().iter();
+        // The axes of a frustum are independent: no normal is zero.
+        let half_spaces = faces
+            .filter_map(|&face| half_space(frustum, face))
+            .collect();
+        Self {
+            frustum: frustum.clone(),
+            half_spaces,
+        }
+    }
+
+    /// The frustum.
+    #[must_use]
+    pub fn frustum(&self) -> &Frustum {
+        &self.frustum
+    }
+
+    /// How a volume lies to the frustum, plane by plane: exactly `Outside` where the
+    /// plane of some face has all of it strictly outside, `Inside` where the frustum
+    /// contains it, else `Crossing`.
+    ///
+    /// A volume that is `Crossing` may be apart from the frustum, beyond an edge or a
+    /// corner: [`Culler::classify_exact`] knows.
+    ///
+    /// # Errors
+    /// What [`Volume::check`] finds.
+    #[inline]
+    pub fn classify(&self, volume: impl Into<Volume>) -> Result<Containment, VolumeError> {
+        self.classify_counted(volume, &mut VolumeCounts::default())
+    }
+
+    /// As [`Culler::classify`], and adds what it needed to counts.
+    ///
+    /// # Errors
+    /// What [`Volume::check`] finds.
+    #[inline]
+    pub fn classify_counted(
+        &self,
+        volume: impl Into<Volume>,
+        counts: &mut VolumeCounts,
+    ) -> Result<Containment, VolumeError> {
+        let volume = volume.into();
+        volume.check()?;
+        with_extent!(&volume, v => Ok(self.by_planes(v, counts)))
+    }
+
+    #[inline(always)]
+    pub(super) fn by_planes(&self, v: &impl Extent, counts: &mut VolumeCounts) -> Containment {
+        let size = v.size();
+        let mut all = Containment::Inside;
+        for half_space in &self.half_spaces {
+            match v.side(half_space, size, counts) {
+                Containment::Outside => return Containment::Outside,
+                Containment::Crossing => all = Containment::Crossing,
+                Containment::Inside => {}
+            }
+        }
+        all
+    }
+
+    /// The same for trees of volumes: among faces that are still open, with the one
+    /// that rejected this volume last time first.
+    ///
+    /// Start with [`Frustum::faces`]; give what is in a volume the `faces` of its
+    /// answer. `hint` is the volume's own and outlives the frame: it is the face that
+    /// rejects it, where one does. Neither changes an answer.
+    ///
+    /// ```
+    /// use frusta::{Aabb, Containment, Culler, EndRect, Face, FaceSet, Frustum, Pose, Shape};
+    /// # let near = EndRect::new(1.0, -1.0, 1.0, -1.0, 1.0);
+    /// # let far = EndRect::new(3.0, -3.0, 3.0, -3.0, 3.0);
+    /// # let frustum = Frustum::new(Pose::IDENTITY, Shape::Finite { near, far })?;
+    /// let culler = Culler::new(&frustum);
+    /// let all: FaceSet = frustum.faces().iter().copied().collect();
+    /// let room = Aabb::new([1.0, -1.0, 2.0], [2.0, 1.0, 4.0]);
+    /// let mut hint = None;
+    /// let answer = culler.classify_among(room, all, &mut hint)?;
+    /// assert_eq!(answer.containment, Containment::Crossing);
+    /// assert_eq!(answer.faces.to_string(), "far");
+    /// // What is in the room is held to one face.
+    /// let lamp = Aabb::new([1.4, -0.1, 3.5], [1.6, 0.1, 3.9]);
+    /// let answer = culler.classify_among(lamp, answer.faces, &mut hint)?;
+    /// assert_eq!((answer.containment, hint), (Containment::Outside, Some(Face::Far)));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// What [`Volume::check`] finds.
+    pub fn classify_among(
+        &self,
+        volume: impl Into<Volume>,
+        faces: FaceSet,
+        hint: &mut Option<Face>,
+    ) -> Result<Among, VolumeError> {
+        let volume = volume.into();
+        volume.check()?;
+        with_extent!(&volume, v => Ok(self.among(v, faces, hint)))
+    }
+
+    fn among(&self, v: &impl Extent, faces: FaceSet, hint: &mut Option<Face>) -> Among {
+        let counts = &mut VolumeCounts::default();
+        let size = v.size();
+        let mut crossed = FaceSet::EMPTY;
+        let first = hint.filter(|&face| faces.contains(face));
+        let all = self.frustum.faces().iter().zip(&self.half_spaces);
+        let is_first = |(face, _): &(&Face, &HalfSpace)| Some(**face) == first;
+        let is_asked = |(face, _): &(&Face, &HalfSpace)| faces.contains(**face);
+        let rest = all.clone().filter(|pair| !is_first(pair));
+        for (&face, half_space) in all.filter(is_first).chain(rest).filter(is_asked) {
+            match v.side(half_space, size, counts) {
+                Containment::Outside => {
+                    *hint = Some(face);
+                    return Among {
+                        containment: Containment::Outside,
+                        faces,
+                    };
+                }
+                Containment::Crossing => crossed = crossed.union(face.into()),
+                Containment::Inside => {}
+            }
+        }
+        let containment = if crossed.is_empty() {
+            Containment::Inside
+        } else {
+            Containment::Crossing
+        };
+        Among {
+            containment,
+            faces: crossed,
+        }
+    }
+}
