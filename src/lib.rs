@@ -52,6 +52,7 @@
 //! (**G7**, how far an `Inward` end could still move outwards, is measured, not
 //! promised.) A coordinate that is not finite is an error, never a panic.
 
+pub mod batch;
 pub mod clip;
 mod exact;
 pub mod frustum;

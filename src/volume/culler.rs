@@ -23,7 +23,7 @@ use super::extent::{Extent, with_extent};
 use super::half_space::HalfSpace;
 use super::shape::{Volume, VolumeError};
 use super::{Containment, VolumeCounts};
-use crate::exact::Number;
+use crate::batch::RowsPair;
 use crate::exact::dyadic::Dyadic;
 use crate::frustum::boundary::boundary;
 use crate::frustum::{Face, FaceSet, Frustum};
@@ -55,6 +55,8 @@ pub struct Culler {
     pub(super) frustum: Frustum,
     /// The faces' half spaces, in the order of [`Frustum::faces`].
     pub(super) half_spaces: Box<[HalfSpace]>,
+    /// The same for batches.
+    rows: RowsPair,
 }
 
 /// How a volume lies to a frustum, and to which of its faces it still has to be held.
@@ -84,17 +86,23 @@ fn half_space(frustum: &Frustum, face: Face) -> Option<HalfSpace> {
     HalfSpace::new([x, y, z, origin])
 }
 
+#[inline(always)]
+fn size<V: Extent>(_: &V, middle: &V::Middle) -> f64 {
+    V::size(middle)
+}
+
 impl Culler {
     /// Prepares a frustum's faces.
     #[must_use]
     pub fn new(frustum: &Frustum) -> Self {
         let faces = frustum.faces().iter();
         // The axes of a frustum are independent: no normal is zero.
-        let half_spaces = faces
+        let half_spaces: Box<[HalfSpace]> = faces
             .filter_map(|&face| half_space(frustum, face))
             .collect();
         Self {
             frustum: frustum.clone(),
+            rows: RowsPair::new(&half_spaces),
             half_spaces,
         }
     }
@@ -103,6 +111,10 @@ impl Culler {
     #[must_use]
     pub fn frustum(&self) -> &Frustum {
         &self.frustum
+    }
+
+    pub(crate) fn rows(&self) -> &RowsPair {
+        &self.rows
     }
 
     /// How a volume lies to the frustum, plane by plane: exactly `Outside` where the
@@ -136,10 +148,11 @@ impl Culler {
 
     #[inline(always)]
     pub(super) fn by_planes(&self, v: &impl Extent, counts: &mut VolumeCounts) -> Containment {
-        let size = v.size();
+        let middle = v.middle();
+        let size = size(v, &middle);
         let mut all = Containment::Inside;
         for half_space in &self.half_spaces {
-            match v.side(half_space, size, counts) {
+            match v.side(&middle, size, half_space, counts) {
                 Containment::Outside => return Containment::Outside,
                 Containment::Crossing => all = Containment::Crossing,
                 Containment::Inside => {}
@@ -189,7 +202,8 @@ impl Culler {
 
     fn among(&self, v: &impl Extent, faces: FaceSet, hint: &mut Option<Face>) -> Among {
         let counts = &mut VolumeCounts::default();
-        let size = v.size();
+        let middle = v.middle();
+        let size = size(v, &middle);
         let mut crossed = FaceSet::EMPTY;
         let first = hint.filter(|&face| faces.contains(face));
         let all = self.frustum.faces().iter().zip(&self.half_spaces);
@@ -197,7 +211,7 @@ impl Culler {
         let is_asked = |(face, _): &(&Face, &HalfSpace)| faces.contains(**face);
         let rest = all.clone().filter(|pair| !is_first(pair));
         for (&face, half_space) in all.filter(is_first).chain(rest).filter(is_asked) {
-            match v.side(half_space, size, counts) {
+            match v.side(&middle, size, half_space, counts) {
                 Containment::Outside => {
                     *hint = Some(face);
                     return Among {

@@ -1,23 +1,26 @@
 //! How far a volume reaches along a half space's normal, rounded and exactly.
 //!
-//! A linear function takes its greatest and its least value over a box at corners:
-//! at which ones is known from where the normal points, exactly, so a box's sign is
-//! a point's. Over an oriented box and a ball it is the middle's value, more or less a
-//! reach: the half axes' inner products with the normal, or the radius times its length.
+//! A linear function's extremes over a volume are its value at the middle, more or less
+//! a reach: half extents times magnitudes of the normal's numbers, or half axes' inner
+//! products with the normal, or the radius times its length. Where rounding leaves a
+//! sign open, a box's is that of a corner, which is a point; at which corner is known
+//! from where the normal points, exactly.
 //!
 //! # Rounded
 //! In units of u (see [`super::half_space`]), S the sum of the magnitudes of the middle's
-//! coordinates, H those of all half axes', r the radius, |n_j| < 1 and so |n| < 1.74:
+//! coordinates, H that of the half extents or of all half axes' coordinates, r the radius,
+//! |n_j| < 1 and so |n| < 1.74:
 //! ```text
-//! middle    5.01 S + 2.01 |d|
-//! reach     oriented box 4.01 H, two sums 2 H;  ball 3 * 1.74 r
+//! middle    5.01 S + 2.01 |d|; of a box 1 S more: it is rounded itself
+//! reach     box 1, the number 1, product 1, sums 2: 5.01 H; oriented box 4.01 H, two
+//!           sums 2 H; ball 3 * 1.74 r
 //! sum       S + |d| + H, or + 1.74 r
 //! ```
 //! In all no more than 7.01 (S + H) + 3.01 |d|, or 6.96 (S + r) + 3.01 |d|: below the
 //! threshold, 8 and 4, at the size S + H, or S + r.
 
 use super::half_space::{HalfSpace, MOST, size};
-use super::shape::{Aabb, Obb, Sphere, Volume};
+use super::shape::{Aabb, Obb, Sphere};
 use super::{Containment, VolumeCounts};
 use crate::exact::Number;
 use crate::exact::dyadic::Dyadic;
@@ -33,13 +36,19 @@ pub(super) enum Extreme {
 
 /// A volume that a half space is asked about.
 pub(super) trait Extent {
+    /// What is formed once for all half spaces.
+    type Middle;
+
+    /// Forms it.
+    fn middle(&self) -> Self::Middle;
+
     /// What rounding errors are in proportion to.
-    fn size(&self) -> f64;
+    fn size(middle: &Self::Middle) -> f64;
 
-    /// The extreme value, rounded.
-    fn value(&self, of: &HalfSpace, extreme: Extreme) -> f64;
+    /// The least and the greatest value, rounded.
+    fn values(middle: &Self::Middle, of: &HalfSpace) -> [f64; 2];
 
-    /// Its sign, exactly, where the rounded value leaves it open.
+    /// The sign of an extreme value, exactly, where the rounded one leaves it open.
     fn sign_beyond_filter(
         &self,
         of: &HalfSpace,
@@ -47,34 +56,34 @@ pub(super) trait Extent {
         counts: &mut VolumeCounts,
     ) -> Ordering;
 
-    /// The sign of the extreme value.
-    #[inline(always)]
-    fn sign(
-        &self,
-        of: &HalfSpace,
-        extreme: Extreme,
-        size: f64,
-        counts: &mut VolumeCounts,
-    ) -> Ordering {
-        let value = self.value(of, extreme);
-        let threshold = of.threshold(size);
-        // The size is as good as infinite where a sum may overflow.
-        if value > threshold && size < MOST {
-            Ordering::Greater
-        } else if value < -threshold && size < MOST {
-            Ordering::Less
-        } else {
-            counts.filter_failures += 1;
-            self.sign_beyond_filter(of, extreme, counts)
-        }
-    }
-
     /// How it lies to the half space.
     #[inline(always)]
-    fn side(&self, of: &HalfSpace, size: f64, counts: &mut VolumeCounts) -> Containment {
-        if self.sign(of, Extreme::Greatest, size, counts) == Ordering::Less {
+    fn side(
+        &self,
+        middle: &Self::Middle,
+        size: f64,
+        of: &HalfSpace,
+        counts: &mut VolumeCounts,
+    ) -> Containment {
+        let [least, greatest] = Self::values(middle, of);
+        // As good as infinite where a sum may overflow.
+        let threshold = if size < MOST {
+            of.threshold(size)
+        } else {
+            f64::INFINITY
+        };
+        let mut is_negative = |value: f64, extreme| {
+            if value > threshold {
+                return false;
+            }
+            value < -threshold || {
+                counts.filter_failures += 1;
+                self.sign_beyond_filter(of, extreme, counts) == Ordering::Less
+            }
+        };
+        if is_negative(greatest, Extreme::Greatest) {
             Containment::Outside
-        } else if self.sign(of, Extreme::Least, size, counts) == Ordering::Less {
+        } else if is_negative(least, Extreme::Least) {
             Containment::Crossing
         } else {
             Containment::Inside
@@ -82,12 +91,24 @@ pub(super) trait Extent {
     }
 }
 
+/// A middle, and more or less what is around it.
+#[inline(always)]
+fn around(middle: f64, reach: f64) -> [f64; 2] {
+    [middle - reach, middle + reach]
+}
+
+/// A box's middle and half extents.
+pub(super) struct Centred {
+    center: Vec3<f64>,
+    half: Vec3<f64>,
+}
+
 impl Aabb<f64> {
     /// The corner at which a half space's function is extreme.
     #[inline(always)]
     fn corner(&self, of: &HalfSpace, extreme: Extreme) -> Vec3<f64> {
         let pick = |axis: usize| {
-            let up = (of.points(axis) == Ordering::Greater) == (extreme == Extreme::Greatest);
+            let up = of.points_up(axis) == (extreme == Extreme::Greatest);
             if up { self.max[axis] } else { self.min[axis] }
         };
         Vec3::new(pick(0), pick(1), pick(2))
@@ -95,15 +116,26 @@ impl Aabb<f64> {
 }
 
 impl Extent for Aabb<f64> {
+    type Middle = Centred;
+
     #[inline(always)]
-    fn size(&self) -> f64 {
-        let larger = |axis: usize| self.min[axis].abs().max(self.max[axis].abs());
-        larger(0) + larger(1) + larger(2)
+    fn middle(&self) -> Centred {
+        Centred {
+            center: (self.min + self.max) * 0.5,
+            half: (self.max - self.min) * 0.5,
+        }
     }
 
     #[inline(always)]
-    fn value(&self, of: &HalfSpace, extreme: Extreme) -> f64 {
-        of.value(self.corner(of, extreme))
+    fn size(Centred { center, half }: &Centred) -> f64 {
+        size(*center) + size(*half)
+    }
+
+    #[inline(always)]
+    fn values(Centred { center, half }: &Centred, of: &HalfSpace) -> [f64; 2] {
+        let [a, b, c, _] = of.rounded();
+        let reach = a.abs() * half.x + b.abs() * half.y + c.abs() * half.z;
+        around(of.value(*center), reach)
     }
 
     fn sign_beyond_filter(
@@ -117,23 +149,25 @@ impl Extent for Aabb<f64> {
 }
 
 impl Extent for Obb<f64> {
+    type Middle = Obb<f64>;
+
     #[inline(always)]
-    fn size(&self) -> f64 {
-        let [u, v, n] = self.half_axes.map(size);
-        size(self.center) + ((u + v) + n)
+    fn middle(&self) -> Obb<f64> {
+        *self
     }
 
     #[inline(always)]
-    fn value(&self, of: &HalfSpace, extreme: Extreme) -> f64 {
-        let [a, b, c, _] = of.high;
+    fn size(middle: &Obb<f64>) -> f64 {
+        let [u, v, n] = middle.half_axes.map(size);
+        size(middle.center) + ((u + v) + n)
+    }
+
+    #[inline(always)]
+    fn values(middle: &Obb<f64>, of: &HalfSpace) -> [f64; 2] {
+        let [a, b, c, _] = of.rounded();
         let along = |h: Vec3<f64>| (a * h.x + b * h.y + c * h.z).abs();
-        let [u, v, n] = self.half_axes.map(along);
-        let reach = (u + v) + n;
-        let middle = of.value(self.center);
-        match extreme {
-            Extreme::Least => middle - reach,
-            Extreme::Greatest => middle + reach,
-        }
+        let [u, v, n] = middle.half_axes.map(along);
+        around(of.value(middle.center), (u + v) + n)
     }
 
     #[cold]
@@ -155,19 +189,21 @@ impl Extent for Obb<f64> {
 }
 
 impl Extent for Sphere<f64> {
+    type Middle = Sphere<f64>;
+
     #[inline(always)]
-    fn size(&self) -> f64 {
-        size(self.center) + self.radius
+    fn middle(&self) -> Sphere<f64> {
+        *self
     }
 
     #[inline(always)]
-    fn value(&self, of: &HalfSpace, extreme: Extreme) -> f64 {
-        let reach = self.radius * of.length;
-        let middle = of.value(self.center);
-        match extreme {
-            Extreme::Least => middle - reach,
-            Extreme::Greatest => middle + reach,
-        }
+    fn size(middle: &Sphere<f64>) -> f64 {
+        size(middle.center) + middle.radius
+    }
+
+    #[inline(always)]
+    fn values(middle: &Sphere<f64>, of: &HalfSpace) -> [f64; 2] {
+        around(of.value(middle.center), middle.radius * of.length())
     }
 
     /// `g + r |n|` has the sign of g where that is not negative, else that of the

@@ -44,16 +44,17 @@ pub(super) const MOST: f64 = 8.452712498170644e270;
 
 /// The points with `normal . p + offset >= 0`.
 #[derive(Clone, Debug)]
-pub(super) struct HalfSpace {
+pub(crate) struct HalfSpace {
     exact: [Dyadic; 4],
+    /// Whether the normal points towards larger coordinates.
+    up: [bool; 3],
     /// Rounded: normal and offset.
-    pub(super) high: [f64; 4],
+    high: [f64; 4],
     /// What that rounding took, rounded.
     low: [f64; 4],
     /// Whether the two sums are the numbers themselves, and fit expansions.
     expands: bool,
-    /// The length of the normal, within 2 u.
-    pub(super) length: f64,
+    length: f64,
     /// The part of the threshold that does not depend on the point; infinite where
     /// nothing is certain.
     constant: f64,
@@ -84,15 +85,29 @@ impl HalfSpace {
             } else {
                 f64::INFINITY
             },
+            up: [0, 1, 2].map(|j| exact[j].sign() == Ordering::Greater),
             exact,
             high,
             low,
         })
     }
 
-    /// Which way the normal points along a coordinate, exactly.
-    pub(super) fn points(&self, axis: usize) -> Ordering {
-        self.exact[axis].sign()
+    /// Normal and offset, rounded.
+    #[inline(always)]
+    pub(crate) fn rounded(&self) -> [f64; 4] {
+        self.high
+    }
+
+    /// The length of the normal, within 2 u.
+    #[inline(always)]
+    pub(crate) fn length(&self) -> f64 {
+        self.length
+    }
+
+    /// Whether the normal points towards larger coordinates, exactly.
+    #[inline(always)]
+    pub(crate) fn points_up(&self, axis: usize) -> bool {
+        self.up[axis]
     }
 
     /// The rounded value at a point.

@@ -18,4 +18,5 @@ mod shape;
 
 pub use counts::VolumeCounts;
 pub use culler::{Among, Culler};
+pub(crate) use half_space::HalfSpace;
 pub use shape::{Aabb, Containment, Obb, Sphere, Volume, VolumeError, VolumeErrorAt};

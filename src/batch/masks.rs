@@ -1,0 +1,167 @@
+//! What a batch says: bits, classes, or the numbers of what may be seen.
+
+use super::words::{Sink, WORD, Word};
+use crate::volume::Containment;
+
+/// A bit for each volume of a batch: 64 a word, the first one lowest.
+///
+/// ```
+/// use frusta::{Aabb, Containment, Culler, EndRect, Frustum, Pose, Shape, batch::ContainmentMasks};
+/// # let near = EndRect::new(1.0, -1.0, 1.0, -1.0, 1.0);
+/// # let far = EndRect::new(3.0, -3.0, 3.0, -3.0, 3.0);
+/// # let frustum = Frustum::new(Pose::IDENTITY, Shape::Finite { near, far })?;
+/// let boxes = [Aabb::new([0.0_f32; 3], [0.5; 3]), Aabb::new([0.0; 3], [1.0, 1.0, 2.0])];
+/// let mut masks = ContainmentMasks::default();
+/// Culler::new(&frustum).mask_boxes(&boxes[..], &mut masks)?;
+/// assert_eq!(masks.outside(), [0b01]);
+/// assert_eq!(masks.get(1), Some(Containment::Crossing));
+/// assert_eq!(masks.visible().collect::<Vec<_>>(), [1]);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct ContainmentMasks {
+    len: usize,
+    outside: Vec<u64>,
+    inside: Vec<u64>,
+}
+
+impl ContainmentMasks {
+    /// How many volumes it tells of.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.len
+    }
+
+    /// Whether it tells of none.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.len == 0
+    }
+
+    /// Set where a volume is outside. Bits beyond the last volume are not set.
+    #[must_use]
+    pub fn outside(&self) -> &[u64] {
+        &self.outside
+    }
+
+    /// Set where a volume is inside. Bits beyond the last volume are not set.
+    #[must_use]
+    pub fn inside(&self) -> &[u64] {
+        &self.inside
+    }
+
+    /// Of one volume.
+    #[must_use]
+    pub fn get(&self, index: usize) -> Option<Containment> {
+        let bit = |words: &[u64]| words[index / WORD] >> (index % WORD) & 1 != 0;
+        (index < self.len).then(|| {
+            if bit(&self.outside) {
+                Containment::Outside
+            } else if bit(&self.inside) {
+                Containment::Inside
+            } else {
+                Containment::Crossing
+            }
+        })
+    }
+
+    /// The numbers of the volumes that are not outside, in order.
+    pub fn visible(&self) -> impl Iterator<Item = usize> + '_ {
+        let words = self.outside.iter().enumerate();
+        words.flat_map(move |(k, outside)| {
+            let count = WORD.min(self.len - k * WORD);
+            bits(visible(count, *outside)).map(move |bit| k * WORD + bit)
+        })
+    }
+}
+
+/// The bits of `count` volumes that are not outside.
+#[inline(always)]
+fn visible(count: usize, outside: u64) -> u64 {
+    !outside & (u64::MAX >> (WORD - count))
+}
+
+/// The numbers of a word's bits.
+#[inline(always)]
+fn bits(mut word: u64) -> impl Iterator<Item = usize> {
+    std::iter::from_fn(move || {
+        let bit = word.trailing_zeros() as usize;
+        word &= word.wrapping_sub(1);
+        (bit < WORD).then_some(bit)
+    })
+}
+
+impl Sink for ContainmentMasks {
+    const INSIDE: bool = true;
+
+    #[inline(always)]
+    fn take(&mut self, count: usize, word: Word) {
+        self.len += count;
+        self.outside.push(word.outside);
+        self.inside.push(word.inside);
+    }
+
+    fn clear(&mut self) {
+        self.len = 0;
+        self.outside.clear();
+        self.inside.clear();
+    }
+}
+
+/// The classes for four bits each of outside and inside.
+const CLASSES: [[Containment; 4]; 256] = {
+    let mut all = [[Containment::Crossing; 4]; 256];
+    let mut i = 0;
+    while i < 1024 {
+        let (bits, lane) = (i / 4, i % 4);
+        if bits >> lane & 1 != 0 {
+            all[bits][lane] = Containment::Outside;
+        } else if bits >> (4 + lane) & 1 != 0 {
+            all[bits][lane] = Containment::Inside;
+        }
+        i += 1;
+    }
+    all
+};
+
+impl Sink for Vec<Containment> {
+    const INSIDE: bool = true;
+
+    #[inline(always)]
+    fn take(&mut self, count: usize, word: Word) {
+        let mut classes = [[Containment::Crossing; 4]; WORD / 4];
+        for (i, four) in classes.iter_mut().enumerate() {
+            let nibble = |word: u64| (word >> (4 * i) & 15) as usize;
+            *four = CLASSES[nibble(word.outside) | nibble(word.inside) << 4];
+        }
+        self.extend_from_slice(&classes.as_flattened()[..count]);
+    }
+
+    fn clear(&mut self) {
+        self.clear();
+    }
+}
+
+/// The numbers of what is not outside.
+pub(super) struct Numbers<'a> {
+    pub(super) list: &'a mut Vec<u32>,
+    /// The number of the next volume.
+    pub(super) next: u32,
+}
+
+impl Sink for Numbers<'_> {
+    const INSIDE: bool = false;
+
+    #[inline(always)]
+    fn take(&mut self, count: usize, word: Word) {
+        let next = self.next;
+        let visible = visible(count, word.outside);
+        self.list.extend(bits(visible).map(|bit| next + bit as u32));
+        self.next += count as u32;
+    }
+
+    fn clear(&mut self) {
+        self.list.clear();
+        self.next = 0;
+    }
+}

@@ -1,0 +1,87 @@
+//! A frustum's half spaces in the scalar type of a batch.
+//!
+//! The numbers of [`crate::volume`]'s half spaces, all scaled so that the largest
+//! of a normal's is between 1/2 and 1, rounded to `T`. So one threshold does for all:
+//! with u the unit roundoff of `T`, a value is off by less than
+//! `8 u S + 4 u |d| + FLOOR` (see [`super::boxes`] and [`super::spheres`]).
+
+use crate::math::Real;
+use crate::volume::HalfSpace;
+
+/// A half space `normal . p + offset >= 0`.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Row<T> {
+    pub(super) normal: [T; 3],
+    /// Whether it points towards larger coordinates.
+    pub(super) up: [bool; 3],
+    pub(super) offset: T,
+    /// The normal's length.
+    pub(super) length: T,
+}
+
+/// The half spaces of a frustum.
+#[derive(Clone, Debug)]
+pub(crate) struct Rows<T> {
+    /// The near face, and the far one's offset: its normal is the negative of the near
+    /// one's. As far as can be where there is no far face.
+    pub(super) near: Row<T>,
+    pub(super) far: T,
+    pub(super) sides: [Row<T>; 4],
+    /// 8 u, what rounding errors are at most in proportion to sizes.
+    pub(super) factor: T,
+    /// And what they are beside that; infinite where nothing is certain.
+    pub(super) constant: T,
+}
+
+/// What underflow does to a value stays far below the first, and sums do not overflow
+/// before sizes do while an offset stays below the second.
+const fn range<T: Real>() -> (f64, f64) {
+    if T::DIGITS == 24 {
+        // 2^-100, 2^90
+        (7.888609052210118e-31, 1.2379400392853803e27)
+    } else {
+        // 2^-900, 2^900
+        (1.183052186166774e-271, 8.452712498170644e270)
+    }
+}
+
+impl<T: Real> Rows<T> {
+    /// From the faces in the order of [`crate::Frustum::faces`]: five or six.
+    pub(crate) fn new(faces: &[HalfSpace]) -> Self {
+        let row = |h: &HalfSpace| {
+            let [a, b, c, d] = h.rounded().map(T::from_f64);
+            Row {
+                normal: [a, b, c],
+                up: [0, 1, 2].map(|axis| h.points_up(axis)),
+                offset: d,
+                length: T::from_f64(h.length()),
+            }
+        };
+        let nothing = Row {
+            normal: [T::ZERO; 3],
+            up: [false; 3],
+            offset: T::ZERO,
+            length: T::ZERO,
+        };
+        let offsets = faces.iter().map(|h| h.rounded()[3].abs());
+        let largest = offsets.fold(0.0, f64::max);
+        let u = T::UNIT_ROUNDOFF;
+        let (floor, most) = range::<T>();
+        let (ends, sides) = faces.split_at(faces.len().saturating_sub(4));
+        let mut rows = [nothing; 4];
+        rows.iter_mut().zip(sides).for_each(|(r, h)| *r = row(h));
+        let constant = if largest < most && sides.len() == 4 {
+            // Rounded up: the sum of two positive numbers is not less than half of it.
+            T::from_f64(4.0 * u * largest + floor).next_up()
+        } else {
+            T::from_f64(f64::INFINITY)
+        };
+        Self {
+            near: ends.first().map_or(nothing, row),
+            far: ends.get(1).map_or(T::from_f64(most), |h| row(h).offset),
+            sides: rows,
+            factor: T::from_f64(8.0 * u),
+            constant,
+        }
+    }
+}

@@ -1,0 +1,223 @@
+//! Volumes by blocks, and what is done with their answers.
+//!
+//! ```text
+//! for each block of 512 volumes, a bit each:
+//!     certainly outside, certainly inside, unsettled
+//!     what is unsettled is asked for one by one, exactly
+//!     the words go to the caller's buffers: masks, classes or a list of numbers
+//! ```
+
+use super::rows::Rows;
+use crate::math::Real;
+use crate::simd::at_width;
+use crate::volume::{Containment, Culler, Volume, VolumeCounts, VolumeErrorAt};
+use fearless_simd::prelude::*;
+use fearless_simd::{Level, f32x8, f64x4};
+
+/// Volumes whose bits make a word.
+pub(super) const WORD: usize = u64::BITS as usize;
+
+/// Volumes in a block: few enough that their numbers stay in the first cache from one
+/// pass over them to the next, so many that loops are not unrolled altogether.
+pub(super) const BLOCK: usize = 8 * WORD;
+
+/// The bits of a block.
+pub(super) type Words = [Word; BLOCK / WORD];
+
+/// Bits for 64 volumes.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Word {
+    pub(super) outside: u64,
+    pub(super) inside: u64,
+    pub(super) unsettled: u64,
+}
+
+impl Word {
+    /// Sets the bits of N volumes, from that of number `at` on: who is certainly
+    /// outside, who certainly inside, whose class is certain.
+    #[inline(always)]
+    pub(super) fn set<const N: usize>(&mut self, at: usize, masks: [u64; 3]) {
+        let [outside, inside, settled] = masks;
+        self.outside |= outside << at;
+        self.inside |= inside << at;
+        self.unsettled |= (!settled & (u64::MAX >> (WORD - N))) << at;
+    }
+}
+
+/// Many volumes of one kind, K numbers each.
+pub(super) trait Lot<T: Real, const K: usize> {
+    fn len(&self) -> usize;
+
+    fn volume(&self, index: usize) -> Option<Volume>;
+
+    /// Where the numbers lie side by side.
+    fn arrays(&self) -> Option<[&[T]; K]>;
+
+    /// The numbers of one.
+    fn numbers(&self, index: usize) -> [T; K];
+
+    /// What a register at a time settles; without INSIDE only what is outside is told.
+    fn words<S, V, const N: usize, const INSIDE: bool>(
+        simd: S,
+        rows: &Rows<T>,
+        block: [&[T; BLOCK]; K],
+    ) -> Words
+    where
+        S: Simd,
+        V: SimdFloat<S, Element = T, Array = [T; N]>;
+}
+
+/// Where answers go.
+pub(super) trait Sink {
+    /// Whether it matters what is inside.
+    const INSIDE: bool;
+
+    /// The words of the next `count` volumes, all settled; no other bits are set.
+    fn take(&mut self, count: usize, word: Word);
+
+    /// Forgets all.
+    fn clear(&mut self);
+}
+
+/// Asks a frustum about all volumes of a lot.
+pub(super) struct Drive<'a, T, L> {
+    pub(super) culler: &'a Culler,
+    pub(super) rows: &'a Rows<T>,
+    pub(super) lot: &'a L,
+    pub(super) counts: &'a mut VolumeCounts,
+}
+
+impl<T: Real, L> Drive<'_, T, L> {
+    /// On an error the sink is empty.
+    #[inline(always)]
+    pub(super) fn run<S, V, const N: usize, const K: usize, Out: Sink>(
+        &mut self,
+        simd: S,
+        out: &mut Out,
+    ) -> Result<(), VolumeErrorAt>
+    where
+        S: Simd,
+        V: SimdFloat<S, Element = T, Array = [T; N]>,
+        L: Lot<T, K>,
+    {
+        out.clear();
+        let arrays = self.lot.arrays();
+        let mut gathered = [[T::ZERO; BLOCK]; K];
+        for start in (0..self.lot.len()).step_by(BLOCK) {
+            let count = BLOCK.min(self.lot.len() - start);
+            let whole = arrays.and_then(|arrays| blocks(arrays, start));
+            let block = match whole {
+                Some(block) => block,
+                None => {
+                    self.gather(start, count, &mut gathered);
+                    gathered.each_ref()
+                }
+            };
+            let words = match Out::INSIDE {
+                true => L::words::<S, V, N, true>(simd, self.rows, block),
+                false => L::words::<S, V, N, false>(simd, self.rows, block),
+            };
+            for (k, mut word) in words.into_iter().enumerate() {
+                let Some(count) = count.checked_sub(k * WORD).filter(|&count| count > 0) else {
+                    break;
+                };
+                let count = count.min(WORD);
+                let present = u64::MAX >> (WORD - count);
+                word.unsettled &= present;
+                if word.unsettled != 0
+                    && let Err(error) = self.settle(start + k * WORD, &mut word)
+                {
+                    out.clear();
+                    return Err(error);
+                }
+                word.outside &= present;
+                word.inside &= present;
+                out.take(count, word);
+            }
+        }
+        Ok(())
+    }
+
+    /// A block's numbers side by side; beyond the last volume it repeats that.
+    #[inline(always)]
+    fn gather<const K: usize>(&self, start: usize, count: usize, to: &mut [[T; BLOCK]; K])
+    where
+        L: Lot<T, K>,
+    {
+        for i in 0..BLOCK {
+            let numbers = self.lot.numbers(start + i.min(count - 1));
+            for (array, number) in to.iter_mut().zip(numbers) {
+                array[i] = number;
+            }
+        }
+    }
+
+    /// One by one.
+    #[inline(never)]
+    fn settle<const K: usize>(&mut self, start: usize, word: &mut Word) -> Result<(), VolumeErrorAt>
+    where
+        L: Lot<T, K>,
+    {
+        while word.unsettled != 0 {
+            let bit = word.unsettled & word.unsettled.wrapping_neg();
+            word.unsettled ^= bit;
+            let index = start + bit.trailing_zeros() as usize;
+            let Some(volume) = self.lot.volume(index) else {
+                continue;
+            };
+            let class = self
+                .culler
+                .classify_counted(volume, self.counts)
+                .map_err(|error| VolumeErrorAt { index, error })?;
+            word.outside |= if class == Containment::Outside {
+                bit
+            } else {
+                0
+            };
+            word.inside |= if class == Containment::Inside { bit } else { 0 };
+        }
+        Ok(())
+    }
+}
+
+/// A block from `start` of each array, if there are so many.
+#[inline(always)]
+fn blocks<T, const K: usize>(arrays: [&[T]; K], start: usize) -> Option<[&[T; BLOCK]; K]> {
+    let mut blocks = [arrays.first()?.get(start..)?.first_chunk()?; K];
+    for (block, array) in blocks.iter_mut().zip(arrays) {
+        *block = array.get(start..)?.first_chunk()?;
+    }
+    Some(blocks)
+}
+
+/// Asks about a lot at the machine's vector width.
+macro_rules! drive {
+    ($name:ident, $t:ident, $lanes:ident, $n:literal) => {
+        pub(super) fn $name<const K: usize, L: Lot<$t, K>, Out: Sink>(
+            level: Level,
+            mut drive: Drive<'_, $t, L>,
+            out: &mut Out,
+        ) -> Result<(), VolumeErrorAt> {
+            at_width!(level, simd => run_at::<_, $t, $lanes<_>, $n, K, L, Out>(simd, &mut drive, out))
+        }
+    };
+}
+
+#[inline(always)]
+fn run_at<S, T, V, const N: usize, const K: usize, L, Out>(
+    simd: S,
+    drive: &mut Drive<'_, T, L>,
+    out: &mut Out,
+) -> Result<(), VolumeErrorAt>
+where
+    S: Simd,
+    T: Real,
+    V: SimdFloat<S, Element = T, Array = [T; N]>,
+    L: Lot<T, K>,
+    Out: Sink,
+{
+    drive.run::<S, V, N, K, Out>(simd, out)
+}
+
+drive!(singles, f32, f32x8, 8);
+drive!(doubles, f64, f64x4, 4);
