@@ -14,11 +14,11 @@
 //! No branch depends on a box. What the threshold does not settle is told by bits.
 //!
 //! # The error bound
-//! In units of u, S >= |p_x| + |p_y| + |p_z| of a corner, |n_j| < 1: the number 1, the
-//! product 1, sums 3, of which the offset has two and its own rounding: 5.01 S + 3.01 |d|.
-//! The threshold has 8 and, of the largest |d|, 4. It is the same for a block: S is
-//! three times the largest magnitude in it. Sums that are fused with their products are
-//! rounded less often; classes are the exact ones with or without.
+//! In units of u, S >= |p_x| + |p_y| + |p_z| of a corner, |n_j| < 1: a number 1, the
+//! product 1, sums 3: 5.01 S + 4.01 |d|. The threshold has 8 of S and of the largest
+//! |d|. It is the same for a block: S is three times the largest magnitude in it. Sums
+//! that are fused with their products are rounded less often; classes are the exact ones
+//! with or without.
 //!
 //! If S is finite no sum overflows: |n_j| < 1, and |d| is far below the largest number.
 //! A block with NaN or with `min > max` is settled one by one, which finds it; with an
@@ -245,12 +245,7 @@ impl<T: Real, const INSIDE: bool> Extremes<T, INSIDE> {
             .fold(T::ZERO, |a, b| if b > a { b } else { a });
         let size = largest + largest + largest;
         let is_valid = valid.to_bitmask() == u64::MAX >> (64 - N);
-        let more = if is_valid {
-            T::ZERO
-        } else {
-            T::from_f64(f64::INFINITY)
-        };
-        rows.factor * size + (rows.constant + more)
+        rows.threshold(size, is_valid)
     }
 
     /// Two more faces.

@@ -1,24 +1,28 @@
 //! Many volumes at once: boxes and spheres in vector registers.
 //!
-//! Answers are those of [`Culler::classify`], for every input. They go to the caller's
+//! Answers are those of [`Culler::classify`], for every input, which they are certain of
+//! in the batch's own type or get from it. They go to the caller's
 //! buffers, which are used again: nothing is allocated once they are large enough, but
 //! where big integers are needed.
 //!
 //! ```text
 //! rows     a frustum's half spaces in the scalar type of a batch
 //! boxes    axis-aligned boxes
-//! words    64 volumes at a time; what is not certain one by one
+//! spheres  balls
+//! words    512 volumes at a time; what is not certain one by one
 //! masks    bits, classes, lists of numbers
 //! ```
 
 mod boxes;
 mod masks;
 mod rows;
+mod spheres;
 mod words;
 
 pub use boxes::{BoxArrays, Boxes};
 pub use masks::ContainmentMasks;
 pub(crate) use rows::Rows;
+pub use spheres::{SphereArrays, Spheres};
 
 use crate::math::{PerReal, Real};
 use crate::volume::{Containment, Culler, VolumeCounts, VolumeErrorAt};
@@ -80,6 +84,19 @@ impl Culler {
         self.drive_boxes(boxes.into(), classes, &mut VolumeCounts::default())
     }
 
+    /// As [`Culler::classify_boxes`], and adds what it needed to counts.
+    ///
+    /// # Errors
+    /// The first box that is none, as [`crate::Aabb::check`]; `classes` is empty then.
+    pub fn classify_boxes_counted<'a, T: Real>(
+        &self,
+        boxes: impl Into<Boxes<'a, T>>,
+        classes: &mut Vec<Containment>,
+        counts: &mut VolumeCounts,
+    ) -> Result<(), VolumeErrorAt> {
+        self.drive_boxes(boxes.into(), classes, counts)
+    }
+
     /// The numbers of the boxes that are not outside, in order: a draw list. A third
     /// less work than classes.
     ///
@@ -99,57 +116,125 @@ impl Culler {
         self.drive_boxes(boxes.into(), list, &mut VolumeCounts::default())
     }
 
-    fn drive_boxes<T: Real, Out: Sink>(
+    /// How each of many balls lies to the frustum, as bits: see [`Culler::classify`].
+    ///
+    /// # Errors
+    /// The first ball that is none, as [`crate::Sphere::check`]; `masks` is empty then.
+    pub fn mask_spheres<'a, T: Real>(
         &self,
-        boxes: Boxes<'_, T>,
-        out: &mut Out,
-        counts: &mut VolumeCounts,
+        spheres: impl Into<Spheres<'a, T>>,
+        masks: &mut ContainmentMasks,
     ) -> Result<(), VolumeErrorAt> {
-        let kernels = BoxKernels(PhantomData::<Out>);
-        let Some((kernel, rows)) = T::pick(&kernels).zip(T::pick(self.rows())) else {
-            return Ok(());
+        self.drive_spheres(spheres.into(), masks, &mut VolumeCounts::default())
+    }
+
+    /// The same as a class for each ball.
+    ///
+    /// # Errors
+    /// The first ball that is none, as [`crate::Sphere::check`]; `classes` is empty then.
+    pub fn classify_spheres<'a, T: Real>(
+        &self,
+        spheres: impl Into<Spheres<'a, T>>,
+        classes: &mut Vec<Containment>,
+    ) -> Result<(), VolumeErrorAt> {
+        self.drive_spheres(spheres.into(), classes, &mut VolumeCounts::default())
+    }
+
+    /// The numbers of the balls that are not outside, in order.
+    ///
+    /// Of more than 2^32 balls numbers start again at 0.
+    ///
+    /// # Errors
+    /// The first ball that is none, as [`crate::Sphere::check`]; `numbers` is empty then.
+    pub fn visible_spheres<'a, T: Real>(
+        &self,
+        spheres: impl Into<Spheres<'a, T>>,
+        numbers: &mut Vec<u32>,
+    ) -> Result<(), VolumeErrorAt> {
+        let list = &mut Numbers {
+            list: numbers,
+            next: 0,
         };
-        let drive = Drive {
-            culler: self,
-            rows,
-            lot: &boxes,
-            counts,
-        };
-        kernel(Level::new(), drive, out)
+        self.drive_spheres(spheres.into(), list, &mut VolumeCounts::default())
     }
 }
 
-/// Asks about boxes of one scalar type.
-type BoxKernel<T, Out> =
-    fn(Level, Drive<'_, T, Boxes<'_, T>>, &mut Out) -> Result<(), VolumeErrorAt>;
+/// Asks about volumes of one kind: a method, and a kernel for each scalar type, which is
+/// compiled here and not in every crate that asks.
+macro_rules! drives {
+    ($drive:ident, $lot:ident, $kernel:ident, $kernels:ident, $singles:ident, $doubles:ident) => {
+        impl Culler {
+            fn $drive<T: Real, Out: Sink>(
+                &self,
+                lot: $lot<'_, T>,
+                out: &mut Out,
+                counts: &mut VolumeCounts,
+            ) -> Result<(), VolumeErrorAt> {
+                let kernels = $kernels(PhantomData::<Out>);
+                let Some((kernel, rows)) = T::pick(&kernels).zip(T::pick(self.rows())) else {
+                    return Ok(());
+                };
+                let drive = Drive {
+                    culler: self,
+                    rows,
+                    lot: &lot,
+                    counts,
+                };
+                kernel(Level::new(), drive, out)
+            }
+        }
 
-/// Of both scalar types.
-struct BoxKernels<Out>(PhantomData<Out>);
+        type $kernel<T, Out> =
+            fn(Level, Drive<'_, T, $lot<'_, T>>, &mut Out) -> Result<(), VolumeErrorAt>;
 
-impl<Out: Sink> PerReal for BoxKernels<Out> {
-    type Of<T: Real> = BoxKernel<T, Out>;
+        struct $kernels<Out>(PhantomData<Out>);
 
-    fn single(&self) -> &BoxKernel<f32, Out> {
-        &(box_singles as _)
-    }
+        impl<Out: Sink> PerReal for $kernels<Out> {
+            type Of<T: Real> = $kernel<T, Out>;
 
-    fn double(&self) -> &BoxKernel<f64, Out> {
-        &(box_doubles as _)
-    }
+            fn single(&self) -> &$kernel<f32, Out> {
+                &($singles as _)
+            }
+
+            fn double(&self) -> &$kernel<f64, Out> {
+                &($doubles as _)
+            }
+        }
+
+        fn $singles<Out: Sink>(
+            level: Level,
+            drive: Drive<'_, f32, $lot<'_, f32>>,
+            out: &mut Out,
+        ) -> Result<(), VolumeErrorAt> {
+            words::singles(level, drive, out)
+        }
+
+        fn $doubles<Out: Sink>(
+            level: Level,
+            drive: Drive<'_, f64, $lot<'_, f64>>,
+            out: &mut Out,
+        ) -> Result<(), VolumeErrorAt> {
+            words::doubles(level, drive, out)
+        }
+    };
 }
 
-fn box_singles<Out: Sink>(
-    level: Level,
-    drive: Drive<'_, f32, Boxes<'_, f32>>,
-    out: &mut Out,
-) -> Result<(), VolumeErrorAt> {
-    words::singles(level, drive, out)
-}
+drives!(
+    drive_boxes,
+    Boxes,
+    BoxKernel,
+    BoxKernels,
+    box_singles,
+    box_doubles
+);
+drives!(
+    drive_spheres,
+    Spheres,
+    SphereKernel,
+    SphereKernels,
+    sphere_singles,
+    sphere_doubles
+);
 
-fn box_doubles<Out: Sink>(
-    level: Level,
-    drive: Drive<'_, f64, Boxes<'_, f64>>,
-    out: &mut Out,
-) -> Result<(), VolumeErrorAt> {
-    words::doubles(level, drive, out)
-}
+#[cfg(test)]
+mod tests;

@@ -3,7 +3,7 @@
 //! The numbers of [`crate::volume`]'s half spaces, all scaled so that the largest
 //! of a normal's is between 1/2 and 1, rounded to `T`. So one threshold does for all:
 //! with u the unit roundoff of `T`, a value is off by less than
-//! `8 u S + 4 u |d| + FLOOR` (see [`super::boxes`] and [`super::spheres`]).
+//! `8 u S + 8 u |d| + FLOOR` (see [`super::boxes`] and [`super::spheres`]).
 
 use crate::math::Real;
 use crate::volume::HalfSpace;
@@ -46,6 +46,13 @@ const fn range<T: Real>() -> (f64, f64) {
 }
 
 impl<T: Real> Rows<T> {
+    /// How far values may be off at a size; infinite for a block with something wrong.
+    #[inline(always)]
+    pub(super) fn threshold(&self, size: T, is_valid: bool) -> T {
+        let more = if is_valid { 0.0 } else { f64::INFINITY };
+        self.factor * size + (self.constant + T::from_f64(more))
+    }
+
     /// From the faces in the order of [`crate::Frustum::faces`]: five or six.
     pub(crate) fn new(faces: &[HalfSpace]) -> Self {
         let row = |h: &HalfSpace| {
@@ -72,7 +79,7 @@ impl<T: Real> Rows<T> {
         rows.iter_mut().zip(sides).for_each(|(r, h)| *r = row(h));
         let constant = if largest < most && sides.len() == 4 {
             // Rounded up: the sum of two positive numbers is not less than half of it.
-            T::from_f64(4.0 * u * largest + floor).next_up()
+            T::from_f64(8.0 * u * largest + floor).next_up()
         } else {
             T::from_f64(f64::INFINITY)
         };

@@ -161,6 +161,7 @@ impl<T: Real, L> Drive<'_, T, L> {
         while word.unsettled != 0 {
             let bit = word.unsettled & word.unsettled.wrapping_neg();
             word.unsettled ^= bit;
+            self.counts.unsettled += 1;
             let index = start + bit.trailing_zeros() as usize;
             let Some(volume) = self.lot.volume(index) else {
                 continue;

@@ -11,6 +11,9 @@ use std::ops::{Add, AddAssign};
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(default))]
 pub struct VolumeCounts {
+    /// Volumes of a batch that were asked for one by one: the batch's own arithmetic left
+    /// them open.
+    pub unsettled: u64,
     /// Signs that the floating-point filter left open, whichever later stage settled
     /// them.
     pub filter_failures: u64,
@@ -28,6 +31,7 @@ pub struct VolumeCounts {
 
 impl AddAssign for VolumeCounts {
     fn add_assign(&mut self, other: Self) {
+        self.unsettled += other.unsettled;
         self.filter_failures += other.filter_failures;
         self.double_doubles += other.double_doubles;
         self.expansions += other.expansions;

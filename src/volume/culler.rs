@@ -19,8 +19,9 @@
 //! # Degenerate volumes
 //! A box of no size is a point, flat ones are rectangles and edges; nothing is divided.
 
+use super::apart::separators;
 use super::extent::{Extent, with_extent};
-use super::half_space::HalfSpace;
+use super::half_space::{HalfSpace, MOST, threshold};
 use super::shape::{Volume, VolumeError};
 use super::{Containment, VolumeCounts};
 use crate::batch::RowsPair;
@@ -28,6 +29,7 @@ use crate::exact::dyadic::Dyadic;
 use crate::frustum::boundary::boundary;
 use crate::frustum::{Face, FaceSet, Frustum};
 use crate::math::Vec3;
+use std::sync::OnceLock;
 
 /// A frustum made ready to be asked about volumes.
 ///
@@ -55,8 +57,67 @@ pub struct Culler {
     pub(super) frustum: Frustum,
     /// The faces' half spaces, in the order of [`Frustum::faces`].
     pub(super) half_spaces: Box<[HalfSpace]>,
+    /// What is in them, rounded, face by face: all are looked at before the first
+    /// decision.
+    planes: Planes,
     /// The same for batches.
     rows: RowsPair,
+    /// Made when first asked for: see [`super::apart`].
+    separators: OnceLock<Box<[HalfSpace]>>,
+}
+
+/// The rounded half spaces side by side.
+#[derive(Clone, Debug)]
+struct Planes {
+    /// Normals and offsets; where there is no face, one that everything is inside of.
+    numbers: [[f64; 6]; 4],
+    lengths: [f64; 6],
+    /// The greatest of the thresholds' constant parts.
+    constant: f64,
+}
+
+impl Planes {
+    fn new(half_spaces: &[HalfSpace]) -> Self {
+        let mut planes = Self {
+            numbers: [[0.0; 6], [0.0; 6], [0.0; 6], [MOST; 6]],
+            lengths: [0.0; 6],
+            constant: 0.0,
+        };
+        for (i, h) in half_spaces.iter().enumerate().take(6) {
+            for (row, number) in planes.numbers.iter_mut().zip(h.rounded()) {
+                row[i] = number;
+            }
+            planes.lengths[i] = h.length();
+            planes.constant = planes.constant.max(h.constant());
+        }
+        planes
+    }
+
+    /// What is certain of a volume by rounded values.
+    #[inline(always)]
+    fn settle<V: Extent>(&self, middle: &V::Middle, size: f64) -> Option<Containment> {
+        // Written so that it is one instruction.
+        let less = |a: f64, b: f64| if b < a { b } else { a };
+        let (mut least, mut greatest) = (MOST, MOST);
+        for i in 0..6 {
+            let numbers = [0, 1, 2, 3].map(|k: usize| self.numbers[k][i]);
+            let [low, high] = V::values(middle, numbers, self.lengths[i]);
+            least = less(least, low);
+            greatest = less(greatest, high);
+        }
+        let threshold = threshold(size, self.constant);
+        if greatest < -threshold {
+            Some(Containment::Outside)
+        } else if !(greatest > threshold) {
+            None
+        } else if least > threshold {
+            Some(Containment::Inside)
+        } else if least < -threshold {
+            Some(Containment::Crossing)
+        } else {
+            None
+        }
+    }
 }
 
 /// How a volume lies to a frustum, and to which of its faces it still has to be held.
@@ -86,11 +147,6 @@ fn half_space(frustum: &Frustum, face: Face) -> Option<HalfSpace> {
     HalfSpace::new([x, y, z, origin])
 }
 
-#[inline(always)]
-fn size<V: Extent>(_: &V, middle: &V::Middle) -> f64 {
-    V::size(middle)
-}
-
 impl Culler {
     /// Prepares a frustum's faces.
     #[must_use]
@@ -102,8 +158,10 @@ impl Culler {
             .collect();
         Self {
             frustum: frustum.clone(),
+            planes: Planes::new(&half_spaces),
             rows: RowsPair::new(&half_spaces),
             half_spaces,
+            separators: OnceLock::new(),
         }
     }
 
@@ -111,6 +169,10 @@ impl Culler {
     #[must_use]
     pub fn frustum(&self) -> &Frustum {
         &self.frustum
+    }
+
+    pub(super) fn separators(&self) -> &[HalfSpace] {
+        self.separators.get_or_init(|| separators(&self.frustum))
     }
 
     pub(crate) fn rows(&self) -> &RowsPair {
@@ -147,12 +209,26 @@ impl Culler {
     }
 
     #[inline(always)]
-    pub(super) fn by_planes(&self, v: &impl Extent, counts: &mut VolumeCounts) -> Containment {
+    pub(super) fn by_planes<V: Extent>(&self, v: &V, counts: &mut VolumeCounts) -> Containment {
         let middle = v.middle();
-        let size = size(v, &middle);
+        let size = V::size(&middle);
+        match self.planes.settle::<V>(&middle, size) {
+            Some(class) => class,
+            None => self.plane_by_plane(v, &middle, size, counts),
+        }
+    }
+
+    #[inline(never)]
+    fn plane_by_plane<V: Extent>(
+        &self,
+        v: &V,
+        middle: &V::Middle,
+        size: f64,
+        counts: &mut VolumeCounts,
+    ) -> Containment {
         let mut all = Containment::Inside;
         for half_space in &self.half_spaces {
-            match v.side(&middle, size, half_space, counts) {
+            match v.side(middle, size, half_space, counts) {
                 Containment::Outside => return Containment::Outside,
                 Containment::Crossing => all = Containment::Crossing,
                 Containment::Inside => {}
@@ -200,10 +276,10 @@ impl Culler {
         with_extent!(&volume, v => Ok(self.among(v, faces, hint)))
     }
 
-    fn among(&self, v: &impl Extent, faces: FaceSet, hint: &mut Option<Face>) -> Among {
+    fn among<V: Extent>(&self, v: &V, faces: FaceSet, hint: &mut Option<Face>) -> Among {
         let counts = &mut VolumeCounts::default();
         let middle = v.middle();
-        let size = size(v, &middle);
+        let size = V::size(&middle);
         let mut crossed = FaceSet::EMPTY;
         let first = hint.filter(|&face| faces.contains(face));
         let all = self.frustum.faces().iter().zip(&self.half_spaces);

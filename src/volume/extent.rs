@@ -11,15 +11,15 @@
 //! coordinates, H that of the half extents or of all half axes' coordinates, r the radius,
 //! |n_j| < 1 and so |n| < 1.74:
 //! ```text
-//! middle    5.01 S + 2.01 |d|; of a box 1 S more: it is rounded itself
+//! middle    4.01 S + 3.01 |d|; of a box 1 S more: it is rounded itself
 //! reach     box 1, the number 1, product 1, sums 2: 5.01 H; oriented box 4.01 H, two
 //!           sums 2 H; ball 3 * 1.74 r
 //! sum       S + |d| + H, or + 1.74 r
 //! ```
-//! In all no more than 7.01 (S + H) + 3.01 |d|, or 6.96 (S + r) + 3.01 |d|: below the
-//! threshold, 8 and 4, at the size S + H, or S + r.
+//! In all no more than 7.01 (S + H) + 4.01 |d|, or 6.96 (S + r) + 4.01 |d|: below the
+//! threshold, 8 of each, at the size S + H, or S + r.
 
-use super::half_space::{HalfSpace, MOST, size};
+use super::half_space::{HalfSpace, size, value};
 use super::shape::{Aabb, Obb, Sphere};
 use super::{Containment, VolumeCounts};
 use crate::exact::Number;
@@ -45,8 +45,8 @@ pub(super) trait Extent {
     /// What rounding errors are in proportion to.
     fn size(middle: &Self::Middle) -> f64;
 
-    /// The least and the greatest value, rounded.
-    fn values(middle: &Self::Middle, of: &HalfSpace) -> [f64; 2];
+    /// The least and the greatest value of a half space with these numbers, rounded.
+    fn values(middle: &Self::Middle, numbers: [f64; 4], length: f64) -> [f64; 2];
 
     /// The sign of an extreme value, exactly, where the rounded one leaves it open.
     fn sign_beyond_filter(
@@ -65,13 +65,8 @@ pub(super) trait Extent {
         of: &HalfSpace,
         counts: &mut VolumeCounts,
     ) -> Containment {
-        let [least, greatest] = Self::values(middle, of);
-        // As good as infinite where a sum may overflow.
-        let threshold = if size < MOST {
-            of.threshold(size)
-        } else {
-            f64::INFINITY
-        };
+        let [least, greatest] = Self::values(middle, of.rounded(), of.length());
+        let threshold = of.threshold(size);
         let mut is_negative = |value: f64, extreme| {
             if value > threshold {
                 return false;
@@ -132,10 +127,10 @@ impl Extent for Aabb<f64> {
     }
 
     #[inline(always)]
-    fn values(Centred { center, half }: &Centred, of: &HalfSpace) -> [f64; 2] {
-        let [a, b, c, _] = of.rounded();
+    fn values(Centred { center, half }: &Centred, n: [f64; 4], _: f64) -> [f64; 2] {
+        let [a, b, c, _] = n;
         let reach = a.abs() * half.x + b.abs() * half.y + c.abs() * half.z;
-        around(of.value(*center), reach)
+        around(value(n, *center), reach)
     }
 
     fn sign_beyond_filter(
@@ -163,11 +158,11 @@ impl Extent for Obb<f64> {
     }
 
     #[inline(always)]
-    fn values(middle: &Obb<f64>, of: &HalfSpace) -> [f64; 2] {
-        let [a, b, c, _] = of.rounded();
+    fn values(middle: &Obb<f64>, n: [f64; 4], _: f64) -> [f64; 2] {
+        let [a, b, c, _] = n;
         let along = |h: Vec3<f64>| (a * h.x + b * h.y + c * h.z).abs();
-        let [u, v, n] = middle.half_axes.map(along);
-        around(of.value(middle.center), (u + v) + n)
+        let [u, v, w] = middle.half_axes.map(along);
+        around(value(n, middle.center), (u + v) + w)
     }
 
     #[cold]
@@ -202,8 +197,8 @@ impl Extent for Sphere<f64> {
     }
 
     #[inline(always)]
-    fn values(middle: &Sphere<f64>, of: &HalfSpace) -> [f64; 2] {
-        around(of.value(middle.center), middle.radius * of.length())
+    fn values(middle: &Sphere<f64>, n: [f64; 4], length: f64) -> [f64; 2] {
+        around(value(n, middle.center), middle.radius * length)
     }
 
     /// `g + r |n|` has the sign of g where that is not negative, else that of the

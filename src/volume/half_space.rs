@@ -7,20 +7,19 @@
 //! a sign, and where `n` points, is known without error, for any frustum.
 //!
 //! # Rounded
-//! With u = 2^-53, S >= |p_x| + |p_y| + |p_z| and N the four numbers rounded: a number
-//! has a relative error of u, a product adds u, three sums add u each. What is
-//! multiplied is below 1, so
+//! With u = 2^-53, S >= |p_x| + |p_y| + |p_z| and the four numbers rounded: a number
+//! has a relative error of u, a product adds u, each of two sums on its way adds u. What
+//! is multiplied is below 1, so
 //! ```text
-//! |g~ - g| <= 5.01 u S + 2.01 u |d|
+//! |g~ - g| <= 4.01 u S + 3.01 u |d|
 //! ```
-//! and the threshold is `T = 8 u S + 4 u |d| + FLOOR`: its own rounding takes less than
-//! what was added, and FLOOR is more than underflow can do. In `f32`, with u = 2^-24,
-//! likewise.
+//! and the threshold is `T = 8 u S + 8 u |d| + FLOOR`: more than its own rounding takes,
+//! and FLOOR is more than underflow can do.
 //!
 //! # To 106 bits
 //! With a number as a sum of two doubles within u^2, a product adds 3 u^2, three sums
 //! of two doubles each add 3 u^2 (`exact/double_double.rs`): 13.1 u^2 S + 4.1 u^2 |d|. The
-//! threshold is 2^-51 of the other: 32 u^2 S + 16 u^2 |d| + 2^-51 FLOOR.
+//! threshold is 2^-51 of the other: 32 u^2 S + 32 u^2 |d| + 2^-51 FLOOR.
 //!
 //! A comparison is written with `>`, so that NaN and infinity fail it.
 
@@ -32,9 +31,8 @@ use crate::exact::expansion::{Expansion, in_safe_range};
 use crate::math::{Real, Vec3};
 use std::cmp::Ordering;
 
-/// 8 u and 4 u.
-const SIZE: f64 = 8.0 * f64::UNIT_ROUNDOFF;
-const OFFSET: f64 = 4.0 * f64::UNIT_ROUNDOFF;
+/// 8 u.
+const ROUNDING: f64 = 8.0 * f64::UNIT_ROUNDOFF;
 /// From the rounded values' threshold to that of values of 106 bits: 2^-51.
 const PRECISE: f64 = 4.440892098500626e-16;
 /// 2^-900: above what underflow does, below every size.
@@ -81,7 +79,7 @@ impl HalfSpace {
             expands: fits && (0..4).all(whole),
             length: rounded(&square).sqrt(),
             constant: if certain {
-                OFFSET * high[3].abs() + FLOOR
+                ROUNDING * high[3].abs() + FLOOR
             } else {
                 f64::INFINITY
             },
@@ -110,30 +108,24 @@ impl HalfSpace {
         self.up[axis]
     }
 
-    /// The rounded value at a point.
-    #[inline(always)]
-    pub(super) fn value(&self, p: Vec3<f64>) -> f64 {
-        let [a, b, c, d] = self.high;
-        a * p.x + b * p.y + (c * p.z + d)
+    /// The part of [`HalfSpace::threshold`] that does not depend on the point.
+    pub(super) fn constant(&self) -> f64 {
+        self.constant
     }
 
-    /// How far it may be off, where the coordinates' magnitudes have a sum of at most
-    /// `size`.
+    /// How far a value may be off at a size.
     #[inline(always)]
     pub(super) fn threshold(&self, size: f64) -> f64 {
-        SIZE * size + self.constant
+        threshold(size, self.constant)
     }
 
     /// The sign of the value at a point that the rounded value leaves open.
     #[cold]
     pub(super) fn sign_beyond_filter(&self, p: Vec3<f64>, counts: &mut VolumeCounts) -> Ordering {
-        let size = size(p);
-        if size < MOST {
-            let value = self.precise(p);
-            if value.abs() > PRECISE * self.threshold(size) {
-                counts.double_doubles += 1;
-                return value.total_cmp(&0.0);
-            }
+        let value = self.precise(p);
+        if value.abs() > PRECISE * self.threshold(size(p)) {
+            counts.double_doubles += 1;
+            return value.total_cmp(&0.0);
         }
         if self.expands
             && p.to_array().into_iter().all(in_safe_range)
@@ -182,6 +174,23 @@ impl HalfSpace {
         (0..3).fold(Dyadic::from(0.0), |sum, j| {
             &sum + &(&self.exact[j] * &self.exact[j])
         })
+    }
+}
+
+/// `n . p + d`, in the order of operations that the bound is for.
+#[inline(always)]
+pub(super) fn value([a, b, c, d]: [f64; 4], p: Vec3<f64>) -> f64 {
+    (a * p.x + b * p.y) + (c * p.z + d)
+}
+
+/// How far a value may be off at a size.
+#[inline(always)]
+pub(super) fn threshold(size: f64, constant: f64) -> f64 {
+    // As good as infinite where a sum may overflow.
+    if size < MOST {
+        ROUNDING * size + constant
+    } else {
+        f64::INFINITY
     }
 }
 

@@ -1,0 +1,236 @@
+//! Batches against one volume at a time, at every vector width.
+
+use super::*;
+use crate::frustum::Frustum;
+use crate::math::{Segment, Vec3};
+use crate::samples::{BLOCK, Family};
+use crate::volume::{Aabb, Sphere, VolumeError};
+
+/// The widest registers of this machine, and those that every one has.
+fn levels() -> [Level; 2] {
+    [Level::new(), Level::baseline()]
+}
+
+/// Boxes between the ends of a family's segments, which are near faces, edges and corners.
+fn boxes<T: Real>(segments: &[Segment<T>]) -> Vec<Aabb<T>> {
+    let around = |s: &Segment<T>| Aabb::around([s.start, s.end]);
+    let mut all: Vec<_> = segments.iter().filter_map(around).collect();
+    // Points, too.
+    let points = segments.iter().map(|s| Aabb::new(s.end, s.end));
+    all.extend(points.take(9));
+    all
+}
+
+/// Balls about one end that reach as far as the other in one coordinate.
+fn spheres<T: Real>(segments: &[Segment<T>]) -> Vec<Sphere<T>> {
+    let ball = |s: &Segment<T>| Sphere::new(s.start, (s.end.z - s.start.z).abs());
+    let finite = |s: &Sphere<T>| s.radius.is_finite();
+    segments.iter().map(ball).filter(finite).collect()
+}
+
+/// The segments of a scene, repeated from different places, so that every place in a register
+/// is taken by all.
+fn segments<T: Real>(family: Family, block: u64) -> (Frustum, Vec<Segment<T>>) {
+    let scene = family.scene(7, block);
+    let cases = block * BLOCK..(block + 1) * BLOCK;
+    let some: Vec<Segment<T>> = cases.map(|i| family.segment(&scene, 7, i)).collect();
+    let many = (0..9).flat_map(|k| &some[k..]).copied().collect();
+    (scene.frustum().clone(), many)
+}
+
+/// All three kinds of output of a lot are what single answers are, at every width.
+macro_rules! comparison {
+    ($name:ident, $t:ident, $lot:ident, $kernel:ident, $item:ident, $rows:ident) => {
+        fn $name(culler: &Culler, lot: $lot<'_, $t>, volumes: &[$item<$t>]) {
+            let single = |v: &$item<$t>| culler.classify(*v).expect("a volume");
+            let expected: Vec<Containment> = volumes.iter().map(single).collect();
+            let seen = |(i, c): (usize, &Containment)| (*c != Containment::Outside).then_some(i);
+            let visible: Vec<usize> = expected.iter().enumerate().filter_map(seen).collect();
+            for level in levels() {
+                let mut counts = VolumeCounts::default();
+                let (mut masks, mut classes, mut list) =
+                    (ContainmentMasks::default(), Vec::new(), Vec::new());
+                let rows = culler.rows().$rows();
+                fn drive<'a>(
+                    culler: &'a Culler,
+                    rows: &'a Rows<$t>,
+                    lot: &'a $lot<'a, $t>,
+                    counts: &'a mut VolumeCounts,
+                ) -> Drive<'a, $t, $lot<'a, $t>> {
+                    Drive {
+                        culler,
+                        rows,
+                        lot,
+                        counts,
+                    }
+                }
+                let to_masks = drive(culler, rows, &lot, &mut counts);
+                words::$kernel(level, to_masks, &mut masks).unwrap();
+                let to_classes = drive(culler, rows, &lot, &mut counts);
+                words::$kernel(level, to_classes, &mut classes).unwrap();
+                let numbers = &mut Numbers {
+                    list: &mut list,
+                    next: 0,
+                };
+                words::$kernel(level, drive(culler, rows, &lot, &mut counts), numbers).unwrap();
+                assert_eq!(classes.len(), expected.len());
+                for (i, (class, expected)) in classes.iter().zip(&expected).enumerate() {
+                    assert_eq!(class, expected, "{:?} {:?}", culler.frustum(), volumes[i]);
+                    assert_eq!(masks.get(i), Some(*expected));
+                }
+                assert_eq!(masks.get(expected.len()), None);
+                assert!(masks.visible().eq(visible.iter().copied()));
+                let list = list.iter().map(|&i: &u32| i as usize);
+                assert!(list.eq(visible.iter().copied()));
+            }
+        }
+    };
+}
+
+comparison!(box_singles_agree, f32, Boxes, singles, Aabb, single);
+comparison!(box_doubles_agree, f64, Boxes, doubles, Aabb, double);
+comparison!(ball_singles_agree, f32, Spheres, singles, Sphere, single);
+comparison!(ball_doubles_agree, f64, Spheres, doubles, Sphere, double);
+
+fn column<T: Copy, V>(volumes: &[V], number: impl Fn(&V) -> T) -> Vec<T> {
+    volumes.iter().map(number).collect()
+}
+
+/// Both layouts of some boxes.
+fn with_layouts<T: Real>(boxes: &[Aabb<T>], mut with: impl FnMut(Boxes<'_, T>)) {
+    with(Boxes::from(boxes));
+    let min = [0, 1, 2].map(|k| column(boxes, |b| b.min[k]));
+    let max = [0, 1, 2].map(|k| column(boxes, |b| b.max[k]));
+    with(Boxes::from(BoxArrays {
+        min: min.each_ref().map(Vec::as_slice),
+        max: max.each_ref().map(Vec::as_slice),
+    }));
+}
+
+#[test]
+fn boxes_are_classified_as_they_are_alone() {
+    for family in Family::ALL {
+        for block in 0..6 {
+            let (frustum, segments) = segments::<f64>(*family, block);
+            let (culler, all) = (Culler::new(&frustum), boxes(&segments));
+            with_layouts(&all, |lot| box_doubles_agree(&culler, lot, &all));
+            if family.has_f32() {
+                let all = boxes(&self::segments::<f32>(*family, block).1);
+                with_layouts(&all, |lot| box_singles_agree(&culler, lot, &all));
+            }
+        }
+    }
+}
+
+#[test]
+fn balls_are_classified_as_they_are_alone() {
+    for family in Family::ALL {
+        for block in 0..6 {
+            let (frustum, segments) = segments::<f64>(*family, block);
+            let (culler, all) = (Culler::new(&frustum), spheres(&segments));
+            ball_doubles_agree(&culler, Spheres::from(&all), &all);
+            if family.has_f32() {
+                let all = spheres(&self::segments::<f32>(*family, block).1);
+                let center = [0, 1, 2].map(|k| column(&all, |s| s.center[k]));
+                let arrays = SphereArrays {
+                    center: center.each_ref().map(Vec::as_slice),
+                    radius: &column(&all, |s| s.radius),
+                };
+                ball_singles_agree(&culler, arrays.into(), &all);
+            }
+        }
+    }
+}
+
+/// A frustum from z = 1 to z = 3.
+fn culler() -> Culler {
+    Culler::new(&Family::Random.scene(1, 0).frustum().clone())
+}
+
+#[test]
+fn any_number_of_boxes() {
+    let (frustum, segments) = segments::<f32>(Family::HalfLattice, 1);
+    let (culler, all) = (Culler::new(&frustum), boxes(&segments));
+    for length in (0..140).chain(500..530).chain([1023, 1024, 1025]) {
+        let some = &all[..length.min(all.len())];
+        with_layouts(some, |lot| box_singles_agree(&culler, lot, some));
+    }
+}
+
+#[test]
+fn what_is_no_volume_is_named_and_nothing_is_left() {
+    let unit = Aabb::new([0.0_f32; 3], [1.0; 3]);
+    let bad = [
+        (Aabb::new([0.0, f32::NAN, 0.0], [1.0; 3]), "min.y = NaN"),
+        (
+            Aabb::new([0.0; 3], [1.0, 1.0, f32::INFINITY]),
+            "max.z = inf",
+        ),
+        (
+            Aabb::new([f32::NEG_INFINITY, 0.0, 0.0], [1.0; 3]),
+            "min.x = -inf",
+        ),
+        (
+            Aabb::new([0.0, 0.0, 2.0], [1.0; 3]),
+            "min.z = 2 is greater than max.z = 1",
+        ),
+    ];
+    for (bad, why) in bad {
+        for index in [0, 7, 63, 64, 600, 1099] {
+            let mut all = vec![unit; 1100];
+            all[index] = bad;
+            with_layouts(&all, |lot| {
+                let (mut masks, mut classes, mut list) = Default::default();
+                culler()
+                    .classify_boxes(&[unit; 3][..], &mut classes)
+                    .unwrap();
+                let errors = [
+                    culler().mask_boxes(lot, &mut masks).unwrap_err(),
+                    culler().classify_boxes(lot, &mut classes).unwrap_err(),
+                    culler().visible_boxes(lot, &mut list).unwrap_err(),
+                ];
+                for error in errors {
+                    assert_eq!(error.index, index);
+                    assert!(error.to_string().contains(why), "{error}");
+                }
+                assert!(masks.is_empty() && masks.outside().is_empty());
+                assert!(classes.is_empty() && list.is_empty());
+            });
+        }
+    }
+    let mut balls = vec![Sphere::new([0.0_f64; 3], 1.0); 70];
+    balls[66].radius = -0.5;
+    let error = culler()
+        .classify_spheres(&balls, &mut Vec::new())
+        .unwrap_err();
+    assert_eq!(error.error, VolumeError::NegativeRadius { radius: -0.5 });
+    assert_eq!(error.index, 66);
+}
+
+/// Most of an everyday scene is settled in registers: a batch is no loop over single calls.
+#[test]
+fn few_are_asked_for_one_by_one() {
+    let frustum = Family::Random.scene(1, 0).frustum().clone();
+    let culler = Culler::new(&frustum);
+    let mut random = crate::samples::Random::new(&[11]);
+    let mut near = || random.between(-20.0, 20.0) as f32;
+    let cube = |_| {
+        let p = Vec3::new(near(), near(), near());
+        Aabb::new(p, p + Vec3::new(1.0, 1.0, 1.0))
+    };
+    let boxes: Vec<Aabb<f32>> = (0..4096).map(cube).collect();
+    let mut counts = VolumeCounts::default();
+    culler
+        .drive_boxes(Boxes::from(&boxes), &mut Vec::new(), &mut counts)
+        .unwrap();
+    assert_eq!(counts.filter_failures, 0, "beyond the filter in f64");
+    assert!(counts.unsettled < 16, "{}", counts.unsettled);
+    // And what touches is asked for.
+    let near = frustum.corners().near[0];
+    let touching = [Aabb::new(near, near); 40];
+    let mut counts = VolumeCounts::default();
+    culler
+        .drive_boxes(Boxes::from(&touching[..]), &mut Vec::new(), &mut counts)
+        .unwrap();
+    assert_eq!(counts.unsettled, 40);
+}
