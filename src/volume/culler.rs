@@ -100,7 +100,8 @@ impl Planes {
         let less = |a: f64, b: f64| if b < a { b } else { a };
         let (mut least, mut greatest) = (MOST, MOST);
         for i in 0..6 {
-            let numbers = [0, 1, 2, 3].map(|k: usize| self.numbers[k][i]);
+            let [a, b, c, d] = &self.numbers;
+            let numbers = [a[i], b[i], c[i], d[i]];
             let [low, high] = V::values(middle, numbers, self.lengths[i]);
             least = less(least, low);
             greatest = less(greatest, high);

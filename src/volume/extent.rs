@@ -153,16 +153,16 @@ impl Extent for Obb<f64> {
 
     #[inline(always)]
     fn size(middle: &Obb<f64>) -> f64 {
-        let [u, v, n] = middle.half_axes.map(size);
-        size(middle.center) + ((u + v) + n)
+        let [u, v, n] = &middle.half_axes;
+        size(middle.center) + ((size(*u) + size(*v)) + size(*n))
     }
 
     #[inline(always)]
     fn values(middle: &Obb<f64>, n: [f64; 4], _: f64) -> [f64; 2] {
         let [a, b, c, _] = n;
-        let along = |h: Vec3<f64>| (a * h.x + b * h.y + c * h.z).abs();
-        let [u, v, w] = middle.half_axes.map(along);
-        around(value(n, middle.center), (u + v) + w)
+        let along = |h: &Vec3<f64>| (a * h.x + b * h.y + c * h.z).abs();
+        let [u, v, w] = &middle.half_axes;
+        around(value(n, middle.center), (along(u) + along(v)) + along(w))
     }
 
     #[cold]

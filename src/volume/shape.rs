@@ -185,8 +185,19 @@ const HALF_AXES: [[&str; 3]; 3] = [
     ["half_axes[2].x", "half_axes[2].y", "half_axes[2].z"],
 ];
 
+#[inline(always)]
 fn check_finite<T: Real>(names: [&'static str; 3], v: Vec3<T>) -> Result<(), VolumeError> {
-    for (what, value) in names.into_iter().zip(v.to_f64().to_array()) {
+    // One test for all three: the difference of what is not finite is NaN.
+    let differences = (v.x - v.x) + (v.y - v.y) + (v.z - v.z);
+    if differences == T::ZERO {
+        return Ok(());
+    }
+    non_finite(names, v.to_f64())
+}
+
+#[cold]
+fn non_finite(names: [&'static str; 3], v: Vec3<f64>) -> Result<(), VolumeError> {
+    for (what, value) in names.into_iter().zip(v.to_array()) {
         if !value.is_finite() {
             return Err(VolumeError::NonFinite { what, value });
         }
@@ -248,16 +259,23 @@ impl<T: Real> Aabb<T> {
     /// # Errors
     /// The first number that is infinite or NaN; else the first coordinate in which
     /// `min` is greater than `max`.
+    #[inline]
     pub fn check(&self) -> Result<(), VolumeError> {
         check_finite(MIN, self.min)?;
         check_finite(MAX, self.max)?;
-        for axis in Axis::ALL {
-            let [min, max] = [self.min, self.max].map(|v| v[axis as usize].to_f64());
-            if min > max {
-                return Err(VolumeError::Inverted { axis, min, max });
-            }
+        let (a, b) = (self.min, self.max);
+        if (a.x <= b.x) & (a.y <= b.y) & (a.z <= b.z) {
+            return Ok(());
         }
-        Ok(())
+        let (a, b) = (a.to_f64(), b.to_f64());
+        let (axis, min, max) = if a.x > b.x {
+            (Axis::X, a.x, b.x)
+        } else if a.y > b.y {
+            (Axis::Y, a.y, b.y)
+        } else {
+            (Axis::Z, a.z, b.z)
+        };
+        Err(VolumeError::Inverted { axis, min, max })
     }
 }
 

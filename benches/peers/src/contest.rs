@@ -6,7 +6,8 @@ use inputs::Source;
 pub use inputs::{boxes, quads};
 
 use crate::boxes::{
-    BevyLoop, Collision, GridBox, OursPoint, PackedSpatialIndex, TreeCuller, Truth,
+    Batch, BevyLoop, Collision, GridBox, OursBatch, OursBox, OursPoint, PackedSpatialIndex,
+    REFERENCE_BOX, REFERENCE_BOXES, TreeCuller, Truth,
 };
 use crate::mixes::{self, Mix};
 use crate::peer::{Case, Contestant, Timed, enter};
@@ -212,18 +213,19 @@ fn load<C: Case + 'static>(mut field: Field<C>, cases: &[C]) -> Vec<Box<dyn Time
     field.into_iter().map(|c| c as Box<dyn Timed>).collect()
 }
 
-/// Where the references are: exact-class V/W in `f64` and in `f32`, then both over slices.
+/// Where the references are: exact-class V/W in `f64` and in `f32`, then both over slices. Where
+/// boxes are classified, frusta's `f32` alone and in batches stand in the places of `f64`.
 fn references(all: &[Box<dyn Timed>]) -> [Option<usize>; REFERENCES] {
     [
-        (REFERENCE, "f64"),
-        (REFERENCE, "f32"),
-        (REFERENCE_SLICES, "f64"),
-        (REFERENCE_SLICES, "f32"),
+        [(REFERENCE, "f64"), (REFERENCE_BOX, "f32")],
+        [(REFERENCE, "f32"), (REFERENCE, "f32")],
+        [(REFERENCE_SLICES, "f64"), (REFERENCE_BOXES, "f32")],
+        [(REFERENCE_SLICES, "f32"), (REFERENCE_SLICES, "f32")],
     ]
-    .map(|reference| {
+    .map(|references| {
         all.iter().position(|c| {
             let who = c.who();
-            (who.function, who.scalar) == reference
+            references.contains(&(who.function, who.scalar))
         })
     })
 }
@@ -291,7 +293,7 @@ pub struct Boxes {
 }
 
 impl Boxes {
-    /// Who takes part; frusta with points only, so far.
+    /// Who takes part.
     pub fn field(&self) -> Field<GridBox> {
         let camera = &self.camera;
         let mut field: Field<GridBox> = vec![
@@ -301,8 +303,15 @@ impl Boxes {
             enter(BevyLoop::new(camera)),
         ];
         field.extend(Collision::new(camera).map(enter));
-        if !self.is_without_ours() {
-            field.push(enter(OursPoint::new(&camera.frustum())));
+        let frustum = &camera.frustum();
+        if self.job == "cull-point" {
+            field.push(enter(OursPoint::new(frustum)));
+            return field;
+        }
+        field.push(enter(OursBox::new(frustum, false)));
+        field.push(enter(OursBox::new(frustum, true)));
+        for batch in [Batch::Masks, Batch::List, Batch::ListOfBoxes] {
+            field.push(Box::new(OursBatch::new(frustum, batch)));
         }
         field
     }
@@ -328,10 +337,6 @@ impl Contest for Boxes {
 
     fn input(&self) -> &str {
         self.input
-    }
-
-    fn is_without_ours(&self) -> bool {
-        self.job != "cull-point"
     }
 
     fn steps(&self, effort: &Effort) -> u64 {

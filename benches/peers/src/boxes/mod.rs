@@ -14,7 +14,7 @@ pub use self::collision::Collision;
 pub use self::treeculler::TreeCuller;
 pub use bevy::BevyLoop;
 pub use exact::Truth;
-pub use ours::OursPoint;
+pub use ours::{Batch, OursBatch, OursBox, OursPoint, REFERENCE_BOX, REFERENCE_BOXES};
 pub use packed::PackedSpatialIndex;
 
 use crate::peer::Case;

@@ -1,8 +1,10 @@
-//! frusta on points: boxes are not built yet.
+//! frusta on points and boxes: one a call, and in batches.
 
 use super::GridBox;
-use crate::peer::{Peer, Who};
-use frusta::{Frustum, NonFinite, Vec3};
+use crate::peer::{Contestant, Peer, Timed, Who};
+use frusta::batch::{BoxArrays, ContainmentMasks};
+use frusta::{Aabb, Containment, Culler, Frustum, NonFinite, Vec3, VolumeError};
+use std::hint::black_box;
 
 /// `Frustum::contains`, for boxes of no size.
 pub struct OursPoint(Frustum);
@@ -39,5 +41,180 @@ impl Peer for OursPoint {
     fn answer(&mut self, block: &GridBox) -> Option<bool> {
         let point = self.prepare(block);
         self.run(&point).ok()
+    }
+}
+
+/// What boxes' times are compared with: one a call, and in batches.
+pub const REFERENCE_BOX: &str = "Culler::classify";
+/// In batches.
+pub const REFERENCE_BOXES: &str = "Culler::mask_boxes, arrays";
+
+/// `Culler::classify`, plane by plane, or `Culler::classify_exact`.
+pub struct OursBox {
+    culler: Culler,
+    exact: bool,
+}
+
+impl OursBox {
+    /// The frustum itself; with separating axes, or by its planes alone.
+    pub fn new(frustum: &Frustum, exact: bool) -> Self {
+        let culler = Culler::new(frustum);
+        Self { culler, exact }
+    }
+}
+
+impl Peer for OursBox {
+    type Case = GridBox;
+    type Input = Aabb<f32>;
+    type Output<'a> = Result<Containment, VolumeError>;
+
+    fn who(&self) -> Who {
+        let (function, note) = match self.exact {
+            true => ("Culler::classify_exact", "three-way, exact"),
+            false => (
+                REFERENCE_BOX,
+                "three-way; outside and inside exact, conservative by design",
+            ),
+        };
+        Who {
+            library: "frusta",
+            function,
+            scalar: "f32",
+            note,
+        }
+    }
+
+    fn prepare(&self, block: &GridBox) -> Aabb<f32> {
+        Aabb::new(block.min, block.max)
+    }
+
+    fn run(&mut self, block: &Aabb<f32>) -> Result<Containment, VolumeError> {
+        if self.exact {
+            self.culler.classify_exact(*block)
+        } else {
+            self.culler.classify(*block)
+        }
+    }
+
+    fn answer(&mut self, block: &GridBox) -> Option<bool> {
+        let block = self.prepare(block);
+        self.run(&block).ok().map(|c| c != Containment::Outside)
+    }
+}
+
+/// Which batch.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Batch {
+    /// Classes as masks, from a structure of arrays.
+    Masks,
+    /// A draw list, from a structure of arrays.
+    List,
+    /// A draw list, from an array of structures.
+    ListOfBoxes,
+}
+
+/// Batches of boxes, 4,096 a call into buffers that are used again.
+pub struct OursBatch {
+    culler: Culler,
+    batch: Batch,
+    boxes: Vec<Aabb<f32>>,
+    arrays: [Vec<f32>; 6],
+    masks: ContainmentMasks,
+    list: Vec<u32>,
+}
+
+/// Boxes in a call.
+const PIECE: usize = 4096;
+
+impl OursBatch {
+    /// The frustum itself.
+    pub fn new(frustum: &Frustum, batch: Batch) -> Self {
+        Self {
+            culler: Culler::new(frustum),
+            batch,
+            boxes: Vec::new(),
+            arrays: Default::default(),
+            masks: ContainmentMasks::default(),
+            list: Vec::new(),
+        }
+    }
+
+    /// Asks about some of what is loaded.
+    fn piece(&mut self, from: usize, to: usize) -> Result<(), frusta::VolumeErrorAt> {
+        let [a, b, c, d, e, f] = self.arrays.each_ref().map(|array| &array[from..to]);
+        let arrays = BoxArrays {
+            min: [a, b, c],
+            max: [d, e, f],
+        };
+        match self.batch {
+            Batch::Masks => self.culler.mask_boxes(arrays, &mut self.masks),
+            Batch::List => self.culler.visible_boxes(arrays, &mut self.list),
+            Batch::ListOfBoxes => {
+                let boxes = &self.boxes[from..to];
+                self.culler.visible_boxes(boxes, &mut self.list)
+            }
+        }
+    }
+
+    fn pieces(&self) -> impl Iterator<Item = (usize, usize)> + use<> {
+        let all = self.boxes.len();
+        (0..all)
+            .step_by(PIECE)
+            .map(move |from| (from, all.min(from + PIECE)))
+    }
+}
+
+impl Timed for OursBatch {
+    fn who(&self) -> Who {
+        Who {
+            library: "frusta",
+            function: match self.batch {
+                Batch::Masks => REFERENCE_BOXES,
+                Batch::List => "Culler::visible_boxes, arrays",
+                Batch::ListOfBoxes => "Culler::visible_boxes, slice",
+            },
+            scalar: "f32",
+            note: "4,096 a call; outside and inside exact, conservative by design",
+        }
+    }
+
+    fn pass(&mut self) {
+        for (from, to) in self.pieces() {
+            let _ = black_box(self.piece(from, to));
+            black_box((&self.masks, &self.list));
+        }
+    }
+
+    fn loaded(&self) -> usize {
+        self.boxes.len()
+    }
+}
+
+impl Contestant<GridBox> for OursBatch {
+    fn ask(&mut self, case: &GridBox) -> Option<bool> {
+        self.ask_all(&[*case])[0]
+    }
+
+    fn ask_all(&mut self, cases: &[GridBox]) -> Vec<Option<bool>> {
+        self.load(cases);
+        let mut all = Vec::with_capacity(cases.len());
+        for (from, to) in self.pieces() {
+            let is_done = self.piece(from, to).is_ok();
+            let mut seen = vec![false; to - from];
+            match self.batch {
+                Batch::Masks => self.masks.visible().for_each(|i| seen[i] = true),
+                _ => self.list.iter().for_each(|&i| seen[i as usize] = true),
+            }
+            all.extend(seen.into_iter().map(|seen| is_done.then_some(seen)));
+        }
+        all
+    }
+
+    fn load(&mut self, cases: &[GridBox]) {
+        self.boxes = cases.iter().map(|b| Aabb::new(b.min, b.max)).collect();
+        self.arrays = std::array::from_fn(|k| {
+            let number = |b: &GridBox| [b.min, b.max][k / 3][k % 3];
+            cases.iter().map(number).collect()
+        });
     }
 }
