@@ -7,6 +7,7 @@
 //!
 //! ```text
 //! rows     a frustum's half spaces in the scalar type of a batch
+//! relative boxes in f64, asked about in f32 relative to a place near them
 //! boxes    axis-aligned boxes
 //! spheres  balls
 //! words    512 volumes at a time; what is not certain one by one
@@ -15,12 +16,14 @@
 
 mod boxes;
 mod masks;
+mod relative;
 mod rows;
 mod spheres;
 mod words;
 
 pub use boxes::{BoxArrays, Boxes};
 pub use masks::ContainmentMasks;
+pub use relative::{RelativeBoxes, RelativeError};
 pub(crate) use rows::Rows;
 pub use spheres::{SphereArrays, Spheres};
 
@@ -156,6 +159,46 @@ impl Culler {
             next: 0,
         };
         self.drive_spheres(spheres.into(), list, &mut VolumeCounts::default())
+    }
+}
+
+impl Culler {
+    /// The numbers of the boxes that are not outside, in order: exactly those of the boxes in
+    /// `f64`, in the time of `f32`.
+    pub fn visible_relative(&self, boxes: &RelativeBoxes, numbers: &mut Vec<u32>) {
+        let list = &mut Numbers {
+            list: numbers,
+            next: 0,
+        };
+        self.drive_relative(boxes, list, &mut VolumeCounts::default());
+    }
+
+    /// A class for each box: exactly those of [`Culler::classify`] of the boxes in `f64`, and
+    /// adds what it needed to counts.
+    pub fn classify_relative_counted(
+        &self,
+        boxes: &RelativeBoxes,
+        classes: &mut Vec<Containment>,
+        counts: &mut VolumeCounts,
+    ) {
+        self.drive_relative(boxes, classes, counts);
+    }
+
+    fn drive_relative(
+        &self,
+        boxes: &RelativeBoxes,
+        out: &mut impl Sink,
+        counts: &mut VolumeCounts,
+    ) {
+        let drive = Drive {
+            culler: self,
+            rows: &Rows::relative_to(self.half_spaces(), boxes.anchor()),
+            lot: boxes,
+            counts,
+        };
+        // They were found to be boxes when they were converted.
+        let done = words::singles(Level::new(), drive, out);
+        debug_assert!(done.is_ok());
     }
 }
 

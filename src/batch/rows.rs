@@ -5,7 +5,7 @@
 //! with u the unit roundoff of `T`, a value is off by less than
 //! `8 u S + 8 u |d| + FLOOR` (see [`super::boxes`] and [`super::spheres`]).
 
-use crate::math::Real;
+use crate::math::{Real, Vec3};
 use crate::volume::HalfSpace;
 
 /// A half space `normal . p + offset >= 0`.
@@ -55,8 +55,18 @@ impl<T: Real> Rows<T> {
 
     /// From the faces in the order of [`crate::Frustum::faces`]: five or six.
     pub(crate) fn new(faces: &[HalfSpace]) -> Self {
+        Self::with_offsets(faces, |h| h.rounded()[3])
+    }
+
+    /// For places relative to an anchor.
+    pub(super) fn relative_to(faces: &[HalfSpace], anchor: Vec3<f64>) -> Self {
+        Self::with_offsets(faces, |h| h.value_rounded(anchor))
+    }
+
+    fn with_offsets(faces: &[HalfSpace], offset: impl Fn(&HalfSpace) -> f64) -> Self {
         let row = |h: &HalfSpace| {
-            let [a, b, c, d] = h.rounded().map(T::from_f64);
+            let [a, b, c, _] = h.rounded().map(T::from_f64);
+            let d = T::from_f64(offset(h));
             Row {
                 normal: [a, b, c],
                 up: [0, 1, 2].map(|axis| h.points_up(axis)),
@@ -70,7 +80,7 @@ impl<T: Real> Rows<T> {
             offset: T::ZERO,
             length: T::ZERO,
         };
-        let offsets = faces.iter().map(|h| h.rounded()[3].abs());
+        let offsets = faces.iter().map(|h| offset(h).abs());
         let largest = offsets.fold(0.0, f64::max);
         let u = T::UNIT_ROUNDOFF;
         let (floor, most) = range::<T>();

@@ -234,3 +234,51 @@ fn few_are_asked_for_one_by_one() {
         .unwrap();
     assert_eq!(counts.unsettled, 40);
 }
+
+/// Millimetres on the earth, in a frustum of a hundredth of a radian, and 1e18 metres away: the
+/// doubles' answers, few of them from the doubles.
+#[test]
+fn relative_boxes_are_classified_as_their_doubles() {
+    let mut random = crate::samples::Random::new(&[12]);
+    for (at, size, anchored) in [(6.378e6, 1e-3, 1.0), (6.378e6, 1e-3, 5.0), (1e18, 1e4, 1e4)] {
+        let eye = Vec3::new(0.6 * at, 0.64 * at, -0.48 * at);
+        let camera = crate::Camera {
+            eye,
+            target: eye + Vec3::new(size * 300.0, size * 400.0, size * 20.0),
+            up: Vec3::new(0.0, 0.0, 1.0),
+            projection: crate::Projection::Perspective {
+                fovy: 0.3,
+                aspect: 1.5,
+            },
+            near: size * 10.0,
+            far: size * 5000.0,
+        };
+        let culler = Culler::new(&camera.frustum().unwrap());
+        let mut near = |reach: f64| {
+            let mut c = || random.between(-reach, reach);
+            Vec3::new(c(), c(), c())
+        };
+        let mut cube = |_| {
+            let middle = camera.target + near(size * 400.0);
+            let half = near(size);
+            let half = Vec3::new(half.x.abs(), half.y.abs(), half.z.abs());
+            Aabb::new(middle - half, middle + half)
+        };
+        let boxes: Vec<Aabb<f64>> = (0..20_000).map(&mut cube).collect();
+        let anchor = eye + Vec3::new(anchored, -anchored, anchored);
+        let relative = RelativeBoxes::new(anchor, &boxes).unwrap();
+        let (mut classes, mut counts) = (Vec::new(), VolumeCounts::default());
+        culler.classify_relative_counted(&relative, &mut classes, &mut counts);
+        let mut seen = [0; 3];
+        for (volume, class) in boxes.iter().zip(&classes) {
+            assert_eq!(culler.classify(*volume), Ok(*class), "{volume:?}");
+            seen[*class as usize] += 1;
+        }
+        assert!(seen.iter().all(|&n| n > 20), "{seen:?}");
+        assert!(counts.unsettled < 1000, "{}", counts.unsettled);
+    }
+    let wrong = RelativeBoxes::new([0.0, f64::NAN, 0.0], &[]).unwrap_err();
+    assert!(wrong.to_string().contains("anchor"), "{wrong}");
+    let empty = Aabb::new([1.0; 3], [0.0; 3]);
+    assert!(RelativeBoxes::new([0.0; 3], &[empty]).is_err());
+}

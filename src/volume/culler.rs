@@ -54,9 +54,9 @@ use std::sync::OnceLock;
 /// ```
 #[derive(Clone, Debug)]
 pub struct Culler {
-    pub(super) frustum: Frustum,
+    frustum: Frustum,
     /// The faces' half spaces, in the order of [`Frustum::faces`].
-    pub(super) half_spaces: Box<[HalfSpace]>,
+    half_spaces: Box<[HalfSpace]>,
     /// What is in them, rounded, face by face: all are looked at before the first
     /// decision.
     planes: Planes,
@@ -174,6 +174,10 @@ impl Culler {
 
     pub(super) fn separators(&self) -> &[HalfSpace] {
         self.separators.get_or_init(|| separators(&self.frustum))
+    }
+
+    pub(crate) fn half_spaces(&self) -> &[HalfSpace] {
+        &self.half_spaces
     }
 
     pub(crate) fn rows(&self) -> &RowsPair {

@@ -162,6 +162,11 @@ impl HalfSpace {
         &self.along(p) + &self.exact[3]
     }
 
+    /// The value, exactly, then rounded; infinite beyond the range.
+    pub(crate) fn value_rounded(&self, p: Vec3<f64>) -> f64 {
+        self.integer(p).round_quotient::<f64>(&Dyadic::from(1.0))
+    }
+
     /// The inner product with the normal, exactly.
     pub(super) fn along(&self, v: Vec3<f64>) -> Dyadic {
         (0..3).fold(Dyadic::from(0.0), |sum, j| {
