@@ -29,10 +29,9 @@
 //! two sides): more operations than corners have, and a turned box reaches farther in
 //! the frame than it does, which would be more boxes to look at again.
 
-use super::rows::{Row, Rows};
 use super::words::{BLOCK, Lot, WORD, Word, Words};
 use crate::math::{Real, Vec3};
-use crate::volume::{Aabb, Volume};
+use crate::volume::{Aabb, Row, Rows, Volume};
 use fearless_simd::prelude::*;
 
 /// Boxes in six arrays, or in one.

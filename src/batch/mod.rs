@@ -6,7 +6,6 @@
 //! where big integers are needed.
 //!
 //! ```text
-//! rows     a frustum's half spaces in the scalar type of a batch
 //! relative boxes in f64, asked about in f32 relative to a place near them
 //! boxes    axis-aligned boxes
 //! spheres  balls
@@ -17,50 +16,20 @@
 mod boxes;
 mod masks;
 mod relative;
-mod rows;
 mod spheres;
 mod words;
 
 pub use boxes::{BoxArrays, Boxes};
 pub use masks::ContainmentMasks;
 pub use relative::{RelativeBoxes, RelativeError};
-pub(crate) use rows::Rows;
 pub use spheres::{SphereArrays, Spheres};
 
 use crate::math::{PerReal, Real};
-use crate::volume::{Containment, Culler, VolumeCounts, VolumeErrorAt};
+use crate::volume::{Containment, Culler, Rows, VolumeCounts, VolumeErrorAt};
 use fearless_simd::Level;
 use masks::Numbers;
 use std::marker::PhantomData;
 use words::{Drive, Sink};
-
-/// Rows of both scalar types.
-#[derive(Clone, Debug)]
-pub(crate) struct RowsPair {
-    single: Rows<f32>,
-    double: Rows<f64>,
-}
-
-impl RowsPair {
-    pub(crate) fn new(faces: &[crate::volume::HalfSpace]) -> Self {
-        Self {
-            single: Rows::new(faces),
-            double: Rows::new(faces),
-        }
-    }
-}
-
-impl PerReal for RowsPair {
-    type Of<T: Real> = Rows<T>;
-
-    fn single(&self) -> &Rows<f32> {
-        &self.single
-    }
-
-    fn double(&self) -> &Rows<f64> {
-        &self.double
-    }
-}
 
 impl Culler {
     /// How each of many boxes lies to the frustum, as bits: see [`Culler::classify`].

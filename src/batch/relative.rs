@@ -15,10 +15,9 @@
 //! is beyond the range of `f32` is infinite there, and so not settled in registers.
 
 use super::boxes::Boxes;
-use super::rows::Rows;
 use super::words::{BLOCK, Lot, Words};
 use crate::math::{NonFinite, Vec3};
-use crate::volume::{Aabb, Volume, VolumeErrorAt};
+use crate::volume::{Aabb, Rows, Volume, VolumeErrorAt};
 use fearless_simd::prelude::*;
 
 /// Boxes in `f64`, with their places relative to an anchor in `f32`.

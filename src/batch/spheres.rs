@@ -18,10 +18,9 @@
 //! A block with NaN or a negative radius is settled one by one, which finds it; with an
 //! infinity S + r is infinite.
 
-use super::rows::{Row, Rows};
 use super::words::{BLOCK, Lot, WORD, Word, Words};
 use crate::math::{Real, Vec3};
-use crate::volume::{Sphere, Volume};
+use crate::volume::{Row, Rows, Sphere, Volume};
 use fearless_simd::prelude::*;
 
 /// Balls in four arrays, or in one.

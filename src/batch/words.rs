@@ -7,10 +7,9 @@
 //!     the words go to the caller's buffers: masks, classes or a list of numbers
 //! ```
 
-use super::rows::Rows;
 use crate::math::Real;
 use crate::simd::at_width;
-use crate::volume::{Containment, Culler, Volume, VolumeCounts, VolumeErrorAt};
+use crate::volume::{Containment, Culler, Rows, Volume, VolumeCounts, VolumeErrorAt};
 use fearless_simd::prelude::*;
 use fearless_simd::{Level, f32x8, f64x4};
 

@@ -22,9 +22,9 @@
 use super::apart::separators;
 use super::extent::{Extent, with_extent};
 use super::half_space::{HalfSpace, MOST, threshold};
+use super::rows::RowsPair;
 use super::shape::{Volume, VolumeError};
 use super::{Containment, VolumeCounts};
-use crate::batch::RowsPair;
 use crate::exact::dyadic::Dyadic;
 use crate::frustum::boundary::boundary;
 use crate::frustum::{Face, FaceSet, Frustum};

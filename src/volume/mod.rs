@@ -7,6 +7,7 @@
 //! ```text
 //! shape       the volumes, and why numbers are none
 //! half_space  a half space that is known exactly, and signs in stages
+//! rows        the faces' half spaces in the scalar type of a batch
 //! extent      how far a volume reaches along a normal
 //! culler      plane by plane
 //! apart       separating axes, for boxes that are outside of no face
@@ -17,9 +18,10 @@ mod counts;
 mod culler;
 mod extent;
 mod half_space;
+mod rows;
 mod shape;
 
 pub use counts::VolumeCounts;
 pub use culler::{Among, Culler};
-pub(crate) use half_space::HalfSpace;
+pub(crate) use rows::{Row, Rows};
 pub use shape::{Aabb, Containment, Obb, Sphere, Volume, VolumeError, VolumeErrorAt};

@@ -1,22 +1,22 @@
 //! A frustum's half spaces in the scalar type of a batch.
 //!
-//! The numbers of [`crate::volume`]'s half spaces, all scaled so that the largest
+//! The numbers of [`super::half_space`], all scaled so that the largest
 //! of a normal's is between 1/2 and 1, rounded to `T`. So one threshold does for all:
 //! with u the unit roundoff of `T`, a value is off by less than
-//! `8 u S + 8 u |d| + FLOOR` (see [`super::boxes`] and [`super::spheres`]).
+//! `8 u S + 8 u |d| + FLOOR` (see `batch/boxes.rs` and `batch/spheres.rs`).
 
-use crate::math::{Real, Vec3};
-use crate::volume::HalfSpace;
+use super::half_space::HalfSpace;
+use crate::math::{PerReal, Real, Vec3};
 
 /// A half space `normal . p + offset >= 0`.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Row<T> {
-    pub(super) normal: [T; 3],
+pub(crate) struct Row<T> {
+    pub(crate) normal: [T; 3],
     /// Whether it points towards larger coordinates.
-    pub(super) up: [bool; 3],
-    pub(super) offset: T,
+    pub(crate) up: [bool; 3],
+    pub(crate) offset: T,
     /// The normal's length.
-    pub(super) length: T,
+    pub(crate) length: T,
 }
 
 /// The half spaces of a frustum.
@@ -24,13 +24,13 @@ pub(super) struct Row<T> {
 pub(crate) struct Rows<T> {
     /// The near face, and the far one's offset: its normal is the negative of the near
     /// one's. As far as can be where there is no far face.
-    pub(super) near: Row<T>,
-    pub(super) far: T,
-    pub(super) sides: [Row<T>; 4],
+    pub(crate) near: Row<T>,
+    pub(crate) far: T,
+    pub(crate) sides: [Row<T>; 4],
     /// 8 u, what rounding errors are at most in proportion to sizes.
-    pub(super) factor: T,
+    pub(crate) factor: T,
     /// And what they are beside that; infinite where nothing is certain.
-    pub(super) constant: T,
+    pub(crate) constant: T,
 }
 
 /// What underflow does to a value stays far below the first, and sums do not overflow
@@ -48,7 +48,7 @@ const fn range<T: Real>() -> (f64, f64) {
 impl<T: Real> Rows<T> {
     /// How far values may be off at a size; infinite for a block with something wrong.
     #[inline(always)]
-    pub(super) fn threshold(&self, size: T, is_valid: bool) -> T {
+    pub(crate) fn threshold(&self, size: T, is_valid: bool) -> T {
         let more = if is_valid { 0.0 } else { f64::INFINITY };
         self.factor * size + (self.constant + T::from_f64(more))
     }
@@ -59,7 +59,7 @@ impl<T: Real> Rows<T> {
     }
 
     /// For places relative to an anchor.
-    pub(super) fn relative_to(faces: &[HalfSpace], anchor: Vec3<f64>) -> Self {
+    pub(crate) fn relative_to(faces: &[HalfSpace], anchor: Vec3<f64>) -> Self {
         Self::with_offsets(faces, |h| h.value_rounded(anchor))
     }
 
@@ -100,5 +100,33 @@ impl<T: Real> Rows<T> {
             factor: T::from_f64(8.0 * u),
             constant,
         }
+    }
+}
+
+/// Rows of both scalar types.
+#[derive(Clone, Debug)]
+pub(crate) struct RowsPair {
+    single: Rows<f32>,
+    double: Rows<f64>,
+}
+
+impl RowsPair {
+    pub(super) fn new(faces: &[HalfSpace]) -> Self {
+        Self {
+            single: Rows::new(faces),
+            double: Rows::new(faces),
+        }
+    }
+}
+
+impl PerReal for RowsPair {
+    type Of<T: Real> = Rows<T>;
+
+    fn single(&self) -> &Rows<f32> {
+        &self.single
+    }
+
+    fn double(&self) -> &Rows<f64> {
+        &self.double
     }
 }
