@@ -48,3 +48,5 @@ pub use volumes::{hard_box, hard_obb, hard_sphere};
 
 #[cfg(test)]
 mod tests;
+#[cfg(all(test, feature = "oracle"))]
+mod volume_tests;
