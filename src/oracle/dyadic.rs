@@ -55,21 +55,25 @@ impl Dyadic {
         Some(Self::new(integer, exponent + i64::from(zeros)))
     }
 
+    /// The exponent, but of zero, which has none of its own.
+    pub(crate) fn exponent(&self) -> Option<i64> {
+        (!self.is_zero()).then_some(self.exponent)
+    }
+
+    /// The same number over a power of two that is not greater than its own.
+    pub(crate) fn over_power(&self, exponent: i64) -> Self {
+        let integer = match self.exponent() {
+            Some(own) => &self.integer << (own - exponent),
+            None => BigInt::zero(),
+        };
+        Self::new(integer, exponent)
+    }
+
     /// Both numbers as integers over the smaller of the two powers of two.
     pub(crate) fn aligned(&self, other: &Self) -> (BigInt, BigInt, i64) {
-        // Zero has no exponent of its own.
-        let exponent = match (self.is_zero(), other.is_zero()) {
-            (true, _) => other.exponent,
-            (_, true) => self.exponent,
-            _ => self.exponent.min(other.exponent),
-        };
-        let integer_of = |d: &Self| {
-            if d.is_zero() {
-                BigInt::zero()
-            } else {
-                &d.integer << (d.exponent - exponent)
-            }
-        };
+        let exponents = self.exponent().into_iter().chain(other.exponent());
+        let exponent = exponents.min().unwrap_or(0);
+        let integer_of = |d: &Self| d.over_power(exponent).integer;
         (integer_of(self), integer_of(other), exponent)
     }
 
@@ -114,6 +118,18 @@ impl Add for &Dyadic {
                 let (a, b, exponent) = self.aligned(other);
                 Dyadic::new(a + b, exponent)
             }
+        }
+    }
+}
+
+/// In the first number's memory, where the powers of two are the same.
+impl Add for Dyadic {
+    type Output = Dyadic;
+    fn add(self, other: Dyadic) -> Dyadic {
+        if self.exponent == other.exponent {
+            Dyadic::new(self.integer + other.integer, self.exponent)
+        } else {
+            &self + &other
         }
     }
 }

@@ -8,30 +8,30 @@
 //! special: the inequalities of all faces together hold there and nowhere beyond.
 
 use super::dyadic::Dyadic;
+use super::vector::{Vector, align, dot, exact, exact_point, plus, times};
 use crate::frustum::{Direction, EndRect, Face, Frustum, Shape};
 use crate::math::{Rect, Vec3};
+use std::slice;
 
 /// The points `p` with `normal . p + offset >= 0`; zero on the face's plane.
 #[derive(Debug)]
 pub(crate) struct HalfSpace {
     pub(crate) face: Face,
-    pub(crate) normal: [Dyadic; 3],
+    pub(crate) normal: Vector,
     offset: Dyadic,
 }
 
 /// A linear function of a point: `gradient . p + constant`.
 #[derive(Clone)]
 struct Linear {
-    gradient: [Dyadic; 3],
+    gradient: Vector,
     constant: Dyadic,
 }
 
 impl HalfSpace {
     /// The boundary function: positive inside, zero on the plane.
-    pub(crate) fn value_at(&self, point: &[Dyadic; 3]) -> Dyadic {
-        let [x, y, z] = &self.normal;
-        let [px, py, pz] = point;
-        &(&(x * px) + &(y * py)) + &(&(z * pz) + &self.offset)
+    pub(crate) fn value_at(&self, point: &Vector) -> Dyadic {
+        &dot(&self.normal, point) + &self.offset
     }
 }
 
@@ -52,10 +52,13 @@ pub(crate) fn half_spaces(frustum: &Frustum) -> Vec<HalfSpace> {
     };
     ends.into_iter()
         .chain(sides)
-        .map(|(face, f)| HalfSpace {
-            face,
-            normal: f.gradient,
-            offset: f.constant,
+        .map(|(face, mut f)| {
+            align(slice::from_mut(&mut f.gradient));
+            HalfSpace {
+                face,
+                normal: f.gradient,
+                offset: f.constant,
+            }
         })
         .collect()
 }
@@ -114,11 +117,9 @@ fn infinite(
 }
 
 /// `axis . (p - origin)` as a function of `p`.
-fn frame_coordinate(axis: Vec3<f64>, origin: &[Dyadic; 3]) -> Linear {
+fn frame_coordinate(axis: Vec3<f64>, origin: &Vector) -> Linear {
     let gradient = exact_point(axis);
-    let [x, y, z] = &gradient;
-    let [ox, oy, oz] = origin;
-    let constant = -&(&(&(x * ox) + &(y * oy)) + &(z * oz));
+    let constant = -&dot(&gradient, origin);
     Linear { gradient, constant }
 }
 
@@ -131,17 +132,15 @@ impl Linear {
     }
 
     fn add(&self, other: &Linear) -> Self {
-        let [a, b, c] = &self.gradient;
-        let [d, e, f] = &other.gradient;
         Linear {
-            gradient: [a + d, b + e, c + f],
+            gradient: plus(&self.gradient, &other.gradient),
             constant: &self.constant + &other.constant,
         }
     }
 
     fn times(&self, factor: &Dyadic) -> Self {
         Linear {
-            gradient: self.gradient.each_ref().map(|g| g * factor),
+            gradient: times(&self.gradient, factor),
             constant: &self.constant * factor,
         }
     }
@@ -152,12 +151,4 @@ impl Linear {
             constant: -&self.constant,
         }
     }
-}
-
-pub(crate) fn exact_point(p: Vec3<f64>) -> [Dyadic; 3] {
-    p.to_array().map(exact)
-}
-
-fn exact(value: f64) -> Dyadic {
-    Dyadic::from_f64(value).unwrap_or_else(Dyadic::zero)
 }

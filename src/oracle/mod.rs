@@ -24,16 +24,24 @@
 //! [`Oracle::check`] holds a clipper's answer against the truth and names the
 //! guarantee that it breaks; [`check_swapped`] and [`check_idempotent`] compare
 //! a clipper with itself.
+//!
+//! [`Oracle::classify`] and [`Oracle::intersects`] say how bounding volumes lie to a
+//! frustum, on integers likewise.
 
 mod check;
 mod dyadic;
+mod frame;
 mod gauge;
 mod half_space;
 mod inward;
 mod near;
+mod nearest;
 mod reference;
 mod round;
+mod separation;
+mod vector;
 mod violation;
+mod volume;
 
 #[cfg(feature = "report")]
 pub(crate) use check::is_mirrored;
@@ -45,12 +53,14 @@ pub use violation::{Violation, ViolationKind};
 
 use crate::clip::Class;
 use crate::frustum::{FaceSet, Frustum, Shape};
-use crate::math::{NonFinite, Real, Segment, Vec3};
+use crate::math::{NonFinite, Pose, Real, Segment, Vec3};
 use dyadic::Dyadic;
-use half_space::{HalfSpace, exact_point, half_spaces};
+use half_space::{HalfSpace, half_spaces};
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{One, Signed, Zero};
+use std::sync::OnceLock;
+use vector::exact_point;
 
 /// A frustum made ready for exact questions.
 #[derive(Debug)]
@@ -58,6 +68,11 @@ pub struct Oracle {
     half_spaces: Vec<HalfSpace>,
     /// The ends' `z` if frame coordinates are world coordinates.
     world_ends: Option<[Option<f64>; 2]>,
+    pose: Pose,
+    shape: Shape,
+    /// What volumes need, made for the first one.
+    separation: OnceLock<separation::Separation>,
+    nearest: OnceLock<nearest::Nearest>,
 }
 
 /// The exact result of clipping a segment.
@@ -131,6 +146,10 @@ impl Oracle {
         Self {
             half_spaces: half_spaces(frustum),
             world_ends,
+            pose: *frustum.pose(),
+            shape: *frustum.shape(),
+            separation: OnceLock::new(),
+            nearest: OnceLock::new(),
         }
     }
 
@@ -306,3 +325,5 @@ impl Fraction {
 
 #[cfg(test)]
 mod tests;
+#[cfg(test)]
+mod volume_tests;

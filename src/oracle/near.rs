@@ -2,7 +2,7 @@
 //! of a singular one.
 
 use super::dyadic::Dyadic;
-use super::half_space::exact_point;
+use super::vector::exact_point;
 use super::{Fraction, Oracle};
 use crate::math::{Real, Segment, Vec3};
 

@@ -3,7 +3,8 @@
 //!
 //! A singular case is only singular if its numbers are. So the [`Solid`]s are
 //! dyadic, and their [`singular_samples`] and [`near_misses`] are carried by a
-//! [`Placement`] to other poses without rounding anything.
+//! [`Placement`] to other poses without rounding anything. [`hard_box`], [`hard_obb`]
+//! and [`hard_sphere`] make bounding volumes for the frustum of any family.
 //!
 //! ```
 //! use frusta::samples::{Family, Placement, Solid, singular_samples};
@@ -32,6 +33,7 @@ mod segments;
 mod singular;
 mod solid;
 mod stiff;
+mod volumes;
 
 pub use family::{BLOCK, Family, UnknownFamily};
 pub use placement::Placement;
@@ -42,6 +44,9 @@ pub use singular::{
     singular_samples,
 };
 pub use solid::{Feature, FeatureKind, Solid};
+pub use volumes::{hard_box, hard_obb, hard_sphere};
 
 #[cfg(test)]
 mod tests;
+#[cfg(all(test, feature = "oracle"))]
+mod volume_tests;

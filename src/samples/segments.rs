@@ -48,7 +48,7 @@ pub(crate) fn segment<T: Real>(family: Family, scene: &Scene, seed: u64, index: 
 
 /// A finite coordinate; some zeros negative, because ends must come back bit for
 /// bit and the sign of a zero must not depend on their order.
-fn tidied<T: Real>(c: T, random: &mut Random) -> T {
+pub(super) fn tidied<T: Real>(c: T, random: &mut Random) -> T {
     if c == T::ZERO && random.one_in(4) {
         -T::ZERO
     } else if c.is_finite() {
@@ -87,23 +87,28 @@ fn bump<T: Real>(value: T, ulps: i64, scale: T, random: &mut Random) -> T {
     )
 }
 
+/// The largest magnitude of a coordinate.
+pub(super) fn largest<T: Real>(p: Vec3<T>) -> T {
+    let magnitudes = p.to_array().into_iter().map(Real::abs);
+    magnitudes.fold(T::ZERO, |a, b| if b > a { b } else { a })
+}
+
 fn bump_point<T: Real>(p: Vec3<T>, most: i64, random: &mut Random) -> Vec3<T> {
-    let scale = p.to_array().into_iter().map(Real::abs);
-    let scale = scale.fold(T::ZERO, |a, b| if b > a { b } else { a });
+    let scale = largest(p);
     Vec3::from(p.to_array().map(|c| {
         let ulps = random.integer(-most, most);
         bump(c, ulps, scale, random)
     }))
 }
 
-struct Aim<'a> {
-    scene: &'a Scene,
-    random: &'a mut Random,
+pub(super) struct Aim<'a> {
+    pub(super) scene: &'a Scene,
+    pub(super) random: &'a mut Random,
 }
 
 impl Aim<'_> {
     /// Grid coordinates of a random feature.
-    fn grid(&mut self) -> [f64; 3] {
+    pub(super) fn grid(&mut self) -> [f64; 3] {
         [(); 3].map(|()| match self.random.below(3) {
             0 => 0.0,
             1 => 1.0,
@@ -113,7 +118,7 @@ impl Aim<'_> {
         })
     }
 
-    fn at<T: Real>(&self, grid: [f64; 3]) -> Vec3<T> {
+    pub(super) fn at<T: Real>(&self, grid: [f64; 3]) -> Vec3<T> {
         Vec3::from_f64(self.scene.at(grid))
     }
 
@@ -124,7 +129,7 @@ impl Aim<'_> {
         self.bumped(p, 4)
     }
 
-    fn bumped<T: Real>(&mut self, p: Vec3<T>, most: i64) -> Vec3<T> {
+    pub(super) fn bumped<T: Real>(&mut self, p: Vec3<T>, most: i64) -> Vec3<T> {
         if self.random.one_in(3) {
             p
         } else {
@@ -133,19 +138,20 @@ impl Aim<'_> {
     }
 
     /// A point in or around the frustum.
-    fn around<T: Real>(&mut self) -> Vec3<T> {
+    pub(super) fn around<T: Real>(&mut self) -> Vec3<T> {
         let grid = [(); 3].map(|()| self.random.between(-1.0, 2.0));
         self.at(grid)
     }
 
+    /// The frustum's size: the largest difference in a coordinate along a diagonal.
+    pub(super) fn size(&self) -> f64 {
+        let d = self.scene.at([1.0, 1.0, 1.0]) - self.scene.at([0.0, 0.0, 0.0]);
+        largest(d)
+    }
+
     /// Any direction, of a length up to the frustum's size.
     fn direction(&mut self) -> Vec3<f64> {
-        let d = self.scene.at([1.0, 1.0, 1.0]) - self.scene.at([0.0, 0.0, 0.0]);
-        let size = d
-            .to_array()
-            .into_iter()
-            .fold(0.0, |a: f64, b| a.max(b.abs()));
-        let size = size * 0.5_f64.powi(self.random.integer(0, 8) as i32);
+        let size = self.size() * 0.5_f64.powi(self.random.integer(0, 8) as i32);
         Vec3::from([(); 3].map(|()| self.random.between(-1.0, 1.0) * size))
     }
 

@@ -48,7 +48,7 @@ impl FeatureKind {
 }
 
 /// Which face bounds which grid coordinate: `[at 0, at 1]`.
-const BOUNDS: [[Face; 2]; 3] = [
+pub(super) const BOUNDS: [[Face; 2]; 3] = [
     [Face::Left, Face::Right],
     [Face::Bottom, Face::Top],
     [Face::Near, Face::Far],

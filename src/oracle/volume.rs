@@ -1,0 +1,204 @@
+//! How bounding volumes lie to a frustum, exactly.
+//!
+//! Plane by plane: a boundary function is linear, so on a box with middle `c` and half
+//! axes `h_k` it takes the values from `f(c) - r` to `f(c) + r` with
+//! `r = |n . h_0| + |n . h_1| + |n . h_2|`, and on a ball those with `r = radius |n|`,
+//! where squares are compared. All of the volume is strictly outside of a plane if
+//! `f(c) + r < 0`, some of it if `f(c) - r < 0`.
+//!
+//! That settles *outside* and *inside* as [`Containment`] means them, and most volumes
+//! that have no point of the frustum. The others pass a plane's test for each face and
+//! still miss the frustum, by an edge: see [`separation`](super::separation) for boxes
+//! and [`nearest`](super::nearest) for balls.
+
+use super::Oracle;
+use super::dyadic::Dyadic;
+use super::frame::Frame;
+use super::half_space::HalfSpace;
+use super::nearest::{ExactBall, Nearest};
+use super::separation::{ExactBox, Separation};
+use super::vector::{Vector, dot, exact, exact_point, minus, plus, times};
+use crate::frustum::FaceSet;
+use crate::volume::{Aabb, Containment, Volume};
+use std::cmp::Ordering;
+
+/// A volume's numbers, exactly.
+enum Exact {
+    Aligned(ExactBox),
+    Oriented(ExactBox),
+    Ball(ExactBall),
+}
+
+impl Exact {
+    fn new(volume: &Volume) -> Self {
+        if let Err(error) = volume.check() {
+            panic!("{error}");
+        }
+        match volume {
+            Volume::Aabb(v) => Self::Aligned(aligned(v)),
+            Volume::Obb(v) => {
+                let half_axes = v.half_axes.map(exact_point);
+                Self::Oriented(ExactBox::new(exact_point(v.center), half_axes))
+            }
+            Volume::Sphere(v) => Self::Ball(ExactBall {
+                center: exact_point(v.center),
+                radius: exact(v.radius),
+            }),
+        }
+    }
+
+    fn center(&self) -> &Vector {
+        match self {
+            Self::Aligned(v) | Self::Oriented(v) => &v.center,
+            Self::Ball(v) => &v.center,
+        }
+    }
+}
+
+fn aligned(v: &Aabb<f64>) -> ExactBox {
+    let (min, max) = (exact_point(v.min), exact_point(v.max));
+    let half = exact(0.5);
+    let [x, y, z] = times(&minus(&max, &min), &half);
+    let zero = Dyadic::zero;
+    let half_axes = [
+        [x, zero(), zero()],
+        [zero(), y, zero()],
+        [zero(), zero(), z],
+    ];
+    ExactBox::new(times(&plus(&min, &max), &half), half_axes)
+}
+
+/// How much of a volume is strictly outside of a face's plane.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Beyond {
+    Nothing,
+    Some,
+    All,
+}
+
+/// `value` is the boundary function at the volume's middle.
+fn beyond(plane: &HalfSpace, value: &Dyadic, volume: &Exact) -> Beyond {
+    // How far the plane is, against how far the volume reaches.
+    let distance = match volume {
+        Exact::Aligned(v) | Exact::Oriented(v) => value.abs().cmp(&v.reach(&plane.normal)),
+        Exact::Ball(v) => {
+            let reach = times(&plane.normal, &v.radius);
+            (value * value).cmp(&dot(&reach, &reach))
+        }
+    };
+    match (value.is_negative(), distance) {
+        (true, Ordering::Greater) => Beyond::All,
+        (true, _) | (false, Ordering::Less) => Beyond::Some,
+        (false, _) => Beyond::Nothing,
+    }
+}
+
+/// What is beyond the faces of a frustum.
+struct Faces {
+    /// The boundary functions at the volume's middle.
+    values: Vec<Dyadic>,
+    outside: FaceSet,
+    crossing: FaceSet,
+}
+
+impl Oracle {
+    /// How a volume lies to the frustum, plane by plane: `Outside` if all of it is
+    /// strictly outside of the plane of one of the faces, `Inside` if the frustum
+    /// contains it, `Crossing` otherwise.
+    ///
+    /// A volume that is `Crossing` need not have a point of the frustum: that is what
+    /// [`Oracle::intersects`] says. About 5 us.
+    ///
+    /// ```
+    /// use frusta::oracle::Oracle;
+    /// use frusta::{Aabb, Containment, EndRect, Face, Frustum, Pose, Shape, Sphere};
+    /// let near = EndRect::new(1.0, -1.0, 1.0, -1.0, 1.0);
+    /// let far = EndRect::new(3.0, -3.0, 3.0, -3.0, 3.0);
+    /// let frustum = Frustum::new(Pose::IDENTITY, Shape::Finite { near, far })?;
+    /// let oracle = Oracle::new(&frustum);
+    ///
+    /// let touching = Aabb::new([1.0, 0.0, 0.0], [2.0, 1.0, 1.0]).into();
+    /// assert_eq!(oracle.classify(&touching), Containment::Crossing);
+    /// let (outside, crossing) = oracle.volume_faces(&touching);
+    /// assert!(outside.is_empty());
+    /// assert_eq!(crossing, [Face::Near, Face::Right].into_iter().collect());
+    /// assert!(oracle.intersects(&touching));
+    ///
+    /// // Outside of no face's plane, beyond the edge between right and near.
+    /// let beyond = Sphere::new([1.5, 0.0, 0.5], 0.625).into();
+    /// assert_eq!(oracle.classify(&beyond), Containment::Crossing);
+    /// assert!(!oracle.intersects(&beyond));
+    /// # Ok::<(), frusta::FrustumError>(())
+    /// ```
+    ///
+    /// # Panics
+    /// [`Volume::check`] says that it is no volume.
+    pub fn classify(&self, volume: &Volume) -> Containment {
+        let (outside, crossing) = self.volume_faces(volume);
+        match (outside.is_empty(), crossing.is_empty()) {
+            (false, _) => Containment::Outside,
+            (true, false) => Containment::Crossing,
+            (true, true) => Containment::Inside,
+        }
+    }
+
+    /// The faces whose planes have all of a volume strictly outside of them, and those
+    /// whose planes have some of it there, but not all. Costs what
+    /// [`Oracle::classify`] does.
+    ///
+    /// # Panics
+    /// [`Volume::check`] says that it is no volume.
+    pub fn volume_faces(&self, volume: &Volume) -> (FaceSet, FaceSet) {
+        let faces = self.faces_beyond(&Exact::new(volume));
+        (faces.outside, faces.crossing)
+    }
+
+    /// Whether a volume and the frustum have a point in common; touching counts.
+    ///
+    /// # Panics
+    /// [`Volume::check`] says that it is no volume.
+    pub fn intersects(&self, volume: &Volume) -> bool {
+        let exact = Exact::new(volume);
+        let faces = self.faces_beyond(&exact);
+        if !faces.outside.is_empty() {
+            return false;
+        }
+        // The middle is in the frustum.
+        if faces.values.iter().all(|v| !v.is_negative()) {
+            return true;
+        }
+        match &exact {
+            Exact::Aligned(v) => !self.separation().separates_aligned(v),
+            Exact::Oriented(v) => !self.separation().separates(v),
+            Exact::Ball(v) => self.nearest().touches(v, &faces.values),
+        }
+    }
+
+    fn faces_beyond(&self, volume: &Exact) -> Faces {
+        let mut faces = Faces {
+            values: Vec::with_capacity(self.half_spaces.len()),
+            outside: FaceSet::EMPTY,
+            crossing: FaceSet::EMPTY,
+        };
+        for plane in &self.half_spaces {
+            let value = plane.value_at(volume.center());
+            match beyond(plane, &value, volume) {
+                Beyond::Nothing => {}
+                Beyond::Some => faces.crossing.insert(plane.face),
+                Beyond::All => faces.outside.insert(plane.face),
+            }
+            faces.values.push(value);
+        }
+        faces
+    }
+
+    fn separation(&self) -> &Separation {
+        self.separation
+            .get_or_init(|| Separation::new(Frame::new(&self.pose, &self.shape)))
+    }
+
+    fn nearest(&self) -> &Nearest {
+        self.nearest
+            .get_or_init(|| Nearest::new(&self.half_spaces, &Frame::new(&self.pose, &self.shape)))
+    }
+}
