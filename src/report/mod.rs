@@ -8,6 +8,7 @@ mod paper_timing;
 mod survey;
 mod verify;
 mod verify_table;
+mod verify_volumes;
 
 pub use case_line::{CaseLine, CaseLineError, CaseSegment};
 pub use paper::{PaperRow, PaperTable, Tier, paper_rounds, paper_table, rotated_poses};
@@ -19,6 +20,7 @@ pub use survey::{
 };
 pub use verify::{ExactClipper, FamilyRow, Options, Subject, Witness, verify, verify_watched};
 pub use verify_table::VerifyTable;
+pub use verify_volumes::{VolumeKind, VolumeRow, VolumeTally, verify_volumes};
 
 #[cfg(test)]
 mod tests;
