@@ -15,7 +15,7 @@ use frusta::{
     Accuracy, CohenSutherland, CyrusBeck, Frustum, LiangBarsky, LiangBarskyVariant, Pose, Real,
     Segment, SegmentClipper, SixPlanes, VwProjection,
 };
-use mixes::{COUNT, Form, Mix, assert_answers_agree, call, form_cases, frustum, poses, singular};
+use mixes::{COUNT, Form, Mix, assert_answers_agree, call, form_cases, frustum, singular};
 use std::hint::black_box;
 use std::time::Duration;
 
@@ -38,7 +38,7 @@ fn bench<T: Real>(
 fn all<T: Real>(c: &mut Criterion, scalar: &str, form: Form, (place, pose): (&str, Pose)) {
     let f = &frustum(form.shape(), &pose);
     for mix in Mix::ALL {
-        let s = &mix.segments::<T>(&pose);
+        let s = &mix.segments::<T>(COUNT, &pose);
         assert_answers_agree(f, s);
         let name = format!("{scalar}/{}/{place}/{}", form.name(), mix.name());
         clippers(c, &name, f, s);
@@ -86,12 +86,12 @@ fn forms(c: &mut Criterion) {
 }
 
 fn clip(c: &mut Criterion) {
-    for place in poses() {
+    for place in Mix::poses() {
         all::<f64>(c, "f64", Form::Symmetric, place);
         all::<f32>(c, "f32", Form::Symmetric, place);
     }
     for form in &Form::ALL[1..] {
-        all::<f64>(c, "f64", *form, poses()[0]);
+        all::<f64>(c, "f64", *form, Mix::poses()[0]);
     }
     for case in singular() {
         let (place, wrong) = (case.place, case.wrong);

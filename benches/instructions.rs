@@ -60,8 +60,8 @@ fn cases() -> Vec<Case> {
         .map(|mix| Case {
             name: mix.name(),
             frustum: frustum(Form::Symmetric.shape(), &pose),
-            doubles: mix.first(2 * COUNT, &pose),
-            singles: mix.first(2 * COUNT, &pose),
+            doubles: mix.segments(2 * COUNT, &pose),
+            singles: mix.segments(2 * COUNT, &pose),
         })
         .collect();
     let (frustum, mut doubles) = samples(&Placement::IDENTITY);

@@ -7,7 +7,7 @@ mod mixes;
 use frusta::samples::{BLOCK, Family, Placement, Solid, singular_samples};
 use frusta::{Accuracy, Frustum, Pose, Real, Segment, SegmentClipper, StageCounts, Vec3};
 use mixes::answers::{exact, plain};
-use mixes::{Form, Mix, frustum, poses};
+use mixes::{Form, Mix, frustum};
 
 const ACCURACIES: [Accuracy; 3] = [Accuracy::Fast, Accuracy::Nearest, Accuracy::Inward];
 
@@ -97,15 +97,15 @@ fn samples<T: Real>(placement: &Placement) -> (Frustum, Vec<Segment<T>>) {
 #[test]
 fn realistic_mixes_allocate_nothing() {
     let mut tally = Tally::default();
-    for (_, pose) in poses() {
+    for (_, pose) in Mix::poses() {
         for form in Form::ALL {
             let frustum = frustum(form.shape(), &pose);
             for mix in Mix::ALL {
-                for segment in &mix.segments::<f64>(&pose)[..SOME] {
-                    tally.add(&frustum, segment);
+                for segment in mix.segments::<f64>(SOME, &pose) {
+                    tally.add(&frustum, &segment);
                 }
-                for segment in &mix.segments::<f32>(&pose)[..SOME] {
-                    tally.add(&frustum, segment);
+                for segment in mix.segments::<f32>(SOME, &pose) {
+                    tally.add(&frustum, &segment);
                 }
             }
         }
@@ -118,11 +118,11 @@ fn realistic_mixes_allocate_nothing() {
 #[test]
 fn no_algorithm_allocates_on_realistic_mixes() {
     fn mix<T: Real>(form: Form, pose: &Pose, mix: Mix) {
-        let (frustum, segments) = (frustum(form.shape(), pose), mix.segments::<T>(pose));
-        assert_none(&plain(), &frustum, &segments[..SOME]);
-        assert_none(&exact(Accuracy::Fast), &frustum, &segments[..SOME]);
+        let (frustum, segments) = (frustum(form.shape(), pose), mix.segments::<T>(SOME, pose));
+        assert_none(&plain(), &frustum, &segments);
+        assert_none(&exact(Accuracy::Fast), &frustum, &segments);
     }
-    for (_, pose) in poses() {
+    for (_, pose) in Mix::poses() {
         for form in Form::ALL {
             for which in Mix::ALL {
                 mix::<f64>(form, &pose, which);

@@ -1,4 +1,4 @@
-//! The segments and frusta that are timed: realistic mixes, from fixed seeds.
+//! The frusta that everyday segments are timed with, and the 78 singular samples.
 
 pub(crate) mod answers;
 mod timed;
@@ -6,31 +6,14 @@ mod timed;
 pub(crate) use answers::{assert_answers_agree, assert_exact_agree, wrong_answers};
 pub(crate) use timed::{call, form_cases, singular};
 
+pub(crate) use frusta::samples::Mix;
+
 use frusta::samples::{Placement, Random, Solid, singular_samples};
 use frusta::{Direction, EndRect, Frustum, Pose, Real, Rect, Segment, Shape, Vec3};
 
 /// Segments in one mix: more than branch predictors learn by heart. Of 32768
 /// that are clipped over and over they learn so much that branches look free.
 pub(crate) const COUNT: usize = 262_144;
-
-/// A vector of this length in a random direction.
-fn direction(random: &mut Random, length: f64) -> Vec3<f64> {
-    loop {
-        let mut c = || random.between(-1.0, 1.0);
-        let v = Vec3::new(c(), c(), c());
-        let square = v.dot(v);
-        if (0.01..=1.0).contains(&square) {
-            return v * (length / square.sqrt());
-        }
-    }
-}
-
-/// The depth range of every frustum here.
-const NEAR: f64 = 1.0;
-const FAR: f64 = 100.0;
-/// Half-extents for each unit of distance: 60 degrees high, 16:9.
-const TAN_Y: f64 = 0.577_350_269_189_625_8;
-const TAN_X: f64 = TAN_Y * 16.0 / 9.0;
 
 /// The frusta, each with the form that its plain coefficients take.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -66,29 +49,25 @@ impl Form {
         ][self as usize]
     }
 
-    /// The camera looks along `-z`.
+    /// The view that the mixes are made for, in this form.
     pub(crate) fn shape(self) -> Shape {
+        let view = View::of_mixes();
         match self {
-            Form::Symmetric => perspective(-1.0, 1.0, FAR),
-            Form::OffAxis => perspective(-0.9, 1.1, FAR),
-            Form::Orthographic => {
-                let (x, y) = (0.6 * TAN_X * FAR, 0.6 * TAN_Y * FAR);
-                Shape::Finite {
-                    near: EndRect::new(-NEAR, -x, x, -y, y),
-                    far: EndRect::new(-FAR, -x, x, -y, y),
-                }
-            }
-            Form::Infinite => infinite(-1.0, 1.0),
-            Form::InfiniteOffAxis => infinite(-0.9, 1.1),
+            Form::Symmetric => Mix::shape(),
+            Form::OffAxis => view.perspective(ASIDE, view.far),
+            Form::Orthographic => view.orthographic(),
+            Form::Infinite => view.infinite(AHEAD),
+            Form::InfiniteOffAxis => view.infinite(ASIDE),
         }
     }
 
     /// Nearly the same set of points in the general form: one side is off by
     /// an ulp, and infinity is far away.
     pub(crate) fn generalised(self) -> Shape {
+        let view = View::of_mixes();
         let mut shape = match self {
-            Form::Infinite => perspective(-1.0, 1.0, 1e9),
-            Form::InfiniteOffAxis => perspective(-0.9, 1.1, 1e9),
+            Form::Infinite => view.perspective(AHEAD, 1e9),
+            Form::InfiniteOffAxis => view.perspective(ASIDE, 1e9),
             _ => self.shape(),
         };
         if let Shape::Finite { near, .. } = &mut shape {
@@ -98,124 +77,64 @@ impl Form {
     }
 }
 
-/// A rectangle across the view, `left..right` in half-widths.
-fn across(distance: f64, left: f64, right: f64) -> EndRect {
-    let (x, y) = (TAN_X * distance, TAN_Y * distance);
-    EndRect::new(-distance, left * x, right * x, -y, y)
+/// Left and right, in half-widths.
+type Sides = [f64; 2];
+
+const AHEAD: Sides = [-1.0, 1.0];
+const ASIDE: Sides = [-0.9, 1.1];
+
+/// What the mixes' view is made of.
+struct View {
+    /// Distances.
+    near: f64,
+    far: f64,
+    /// Half-extents for each unit of distance.
+    tan_x: f64,
+    tan_y: f64,
 }
 
-fn perspective(left: f64, right: f64, far: f64) -> Shape {
-    Shape::Finite {
-        near: across(NEAR, left, right),
-        far: across(far, left, right),
-    }
-}
-
-fn infinite(left: f64, right: f64) -> Shape {
-    Shape::Infinite {
-        near: across(NEAR, left, right),
-        slopes: Rect::new(left * TAN_X, right * TAN_X, -TAN_Y, TAN_Y),
-        direction: Direction::MinusZ,
-    }
-}
-
-/// The poses: the world's own frame, and a camera somewhere.
-pub(crate) fn poses() -> [(&'static str, Pose); 2] {
-    [("frame", Pose::IDENTITY), ("world", rotated())]
-}
-
-/// A camera somewhere, turned about all three axes.
-fn rotated() -> Pose {
-    // The rotation of the quaternion (0.8, 0.36, 0.32, 0.36), of length 1.
-    let (w, x, y, z) = (0.8_f64, 0.36_f64, 0.32_f64, 0.36_f64);
-    let axes = [
-        [
-            1.0 - 2.0 * (y * y + z * z),
-            2.0 * (x * y + w * z),
-            2.0 * (x * z - w * y),
-        ],
-        [
-            2.0 * (x * y - w * z),
-            1.0 - 2.0 * (x * x + z * z),
-            2.0 * (y * z + w * x),
-        ],
-        [
-            2.0 * (x * z + w * y),
-            2.0 * (y * z - w * x),
-            1.0 - 2.0 * (x * x + y * y),
-        ],
-    ];
-    Pose::new(Vec3::new(12.5, -3.75, 41.0), axes.map(Vec3::from))
-}
-
-/// What kind of segments.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Mix {
-    /// A scene all around the camera: short edges, most of them elsewhere.
-    MostlyOut,
-    /// About a third each: outside, inside, clipped.
-    Mixed,
-    /// An object in view: short edges, a few of them over the border.
-    MostlyIn,
-    /// Construction lines and grids: both ends far outside.
-    LongCrossing,
-}
-
-impl Mix {
-    pub(crate) const ALL: [Mix; 4] = [Mix::MostlyOut, Mix::Mixed, Mix::MostlyIn, Mix::LongCrossing];
-
-    pub(crate) const fn name(self) -> &'static str {
-        ["mostly-out", "mixed", "mostly-in", "long-crossing"][self as usize]
-    }
-
-    /// The segments, carried from the frame to the world of the pose.
-    pub(crate) fn segments<T: Real>(self, pose: &Pose) -> Vec<Segment<T>> {
-        self.first(COUNT, pose)
-    }
-
-    /// The first so many of them.
-    pub(crate) fn first<T: Real>(self, count: usize, pose: &Pose) -> Vec<Segment<T>> {
-        let mut random = Random::new(&[self as u64]);
-        let to_world = |v| Vec3::from_f64(pose.to_world(v));
-        (0..count)
-            .map(|_| {
-                let s = segment(&mut random, self);
-                Segment::new(to_world(s.start), to_world(s.end))
-            })
-            .collect()
-    }
-}
-
-/// A point of the frustum grown about its middle, even in depth.
-fn near_point(random: &mut Random, grown: f64) -> Vec3<f64> {
-    let middle = 0.5 * (NEAR + FAR);
-    let depth = middle + grown * (random.between(NEAR, FAR) - middle);
-    let (x, y) = (TAN_X * depth * grown, TAN_Y * depth * grown);
-    Vec3::new(random.between(-x, x), random.between(-y, y), -depth)
-}
-
-/// One segment of a mix, in the frame.
-fn segment(random: &mut Random, mix: Mix) -> Segment<f64> {
-    let (p, length) = match mix {
-        Mix::MostlyOut => {
-            let all = 1.5 * FAR;
-            let p = Vec3::new(
-                random.between(-all, all),
-                random.between(-all, all),
-                random.between(-all, all),
-            );
-            (p, random.between(1.0, 40.0))
+impl View {
+    fn of_mixes() -> Self {
+        let shape = Mix::shape();
+        let (near, far) = (shape.near(), shape.far().expect("has a far face"));
+        Self {
+            near: -near.z,
+            far: -far.z,
+            tan_x: near.rect.right / -near.z,
+            tan_y: near.rect.top / -near.z,
         }
-        Mix::Mixed => (near_point(random, 1.25), random.between(1.0, 60.0)),
-        Mix::MostlyIn => (near_point(random, 0.98), random.between(0.5, 8.0)),
-        Mix::LongCrossing => {
-            let p = near_point(random, 1.05);
-            let d = direction(random, 1.0);
-            let (back, forth) = (random.between(200.0, 900.0), random.between(200.0, 900.0));
-            return Segment::new(p - d * back, p + d * forth);
+    }
+
+    /// A rectangle across the view.
+    fn across(&self, distance: f64, [left, right]: Sides) -> EndRect {
+        let (x, y) = (self.tan_x * distance, self.tan_y * distance);
+        EndRect::new(-distance, left * x, right * x, -y, y)
+    }
+
+    fn perspective(&self, sides: Sides, far: f64) -> Shape {
+        Shape::Finite {
+            near: self.across(self.near, sides),
+            far: self.across(far, sides),
         }
-    };
-    Segment::new(p, p + direction(random, length))
+    }
+
+    fn orthographic(&self) -> Shape {
+        let (x, y) = (0.6 * self.tan_x * self.far, 0.6 * self.tan_y * self.far);
+        let end = |distance: f64| EndRect::new(-distance, -x, x, -y, y);
+        Shape::Finite {
+            near: end(self.near),
+            far: end(self.far),
+        }
+    }
+
+    fn infinite(&self, [left, right]: Sides) -> Shape {
+        let (x, y) = (self.tan_x, self.tan_y);
+        Shape::Infinite {
+            near: self.across(self.near, [left, right]),
+            slopes: Rect::new(left * x, right * x, -y, y),
+            direction: Direction::MinusZ,
+        }
+    }
 }
 
 /// The frustum of a shape at a pose.

@@ -1,6 +1,8 @@
 //! What both benchmarks time, each case with its answers compared already.
 
-use super::{Form, Mix, assert_answers_agree, assert_exact_agree, frustum, samples, wrong_answers};
+use super::{
+    COUNT, Form, Mix, assert_answers_agree, assert_exact_agree, frustum, samples, wrong_answers,
+};
 use frusta::samples::Placement;
 use frusta::{Frustum, NonFinite, Pose, Real, Segment, SegmentClip, SegmentClipper};
 
@@ -68,7 +70,7 @@ pub(crate) fn form_cases() -> impl Iterator<Item = FormCase> {
     all.map(|(form, mix)| {
         let shapes = [form.generalised(), form.shape()];
         let [general, own] = shapes.map(|shape| frustum(shape, &Pose::IDENTITY));
-        let segments = mix.segments::<f64>(&Pose::IDENTITY);
+        let segments = mix.segments::<f64>(COUNT, &Pose::IDENTITY);
         let classes = [&general, &own].map(|f| assert_answers_agree(f, &segments));
         assert_eq!(classes[0], classes[1], "not the same set of points");
         FormCase {

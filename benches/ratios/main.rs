@@ -14,7 +14,7 @@ use frusta::{
     Accuracy, CohenSutherland, CyrusBeck, Frustum, LiangBarsky, LiangBarskyVariant, Pose, Real,
     Segment, SegmentClipper, SixPlanes, VwProjection,
 };
-use mixes::{COUNT, Form, Mix, assert_answers_agree, call, form_cases, frustum, poses};
+use mixes::{COUNT, Form, Mix, assert_answers_agree, call, form_cases, frustum};
 use std::hint::black_box;
 use std::time::Instant;
 use turns::{Pass, take_turns};
@@ -71,7 +71,7 @@ fn table<T: Real>(scalar: &str, form: Form, (place, pose): (&str, Pose), rounds:
     println!("\n{scalar}, {}, in the {place}", form.name());
     let frustum = frustum(form.shape(), &pose);
     for mix in Mix::ALL {
-        let segments = mix.segments::<T>(&pose);
+        let segments = mix.segments::<T>(COUNT, &pose);
         let [out, _, _, inside, cross] = assert_answers_agree(&frustum, &segments);
         let (names, mut passes): (Vec<_>, Vec<_>) =
             clippers(&frustum, &segments).into_iter().unzip();
@@ -121,12 +121,12 @@ fn forms(rounds: usize) {
 /// One by one.
 fn singles(rounds: usize) {
     println!("nanoseconds a segment; in brackets how many times as fast as textbook Liang-Barsky");
-    for place in poses() {
+    for place in Mix::poses() {
         table::<f64>("f64", Form::Symmetric, place, rounds);
         table::<f32>("f32", Form::Symmetric, place, rounds);
     }
     for form in &Form::ALL[1..] {
-        table::<f64>("f64", *form, poses()[0], rounds);
+        table::<f64>("f64", *form, Mix::poses()[0], rounds);
     }
     singular(rounds);
     forms(rounds);

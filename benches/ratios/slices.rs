@@ -5,7 +5,7 @@
 //! the clips while they are in the cache. The clippers take turns; medians over
 //! rounds. Every answer of a slice is compared with that of the segment alone first.
 
-use crate::mixes::{self, Form, Mix, frustum, poses};
+use crate::mixes::{self, COUNT, Form, Mix, frustum};
 use crate::turns::{Pass, take_turns};
 use frusta::{
     Accuracy, Frustum, LiangBarsky, LiangBarskyVariant, Real, Segment, SegmentClip, SegmentClipper,
@@ -69,7 +69,7 @@ fn row<T: Real>(frustum: &Frustum, all: &[Segment<T>], rounds: usize) {
 }
 
 fn table<T: Real>(scalar: &str, form: Form, rounds: usize) {
-    for (place, pose) in poses() {
+    for (place, pose) in Mix::poses() {
         println!("\n{scalar}, {}, in the {place}", form.name());
         println!(
             "{:14} {:>14} {:>14} {:>14} {:>14}",
@@ -78,7 +78,7 @@ fn table<T: Real>(scalar: &str, form: Form, rounds: usize) {
         let frustum = frustum(form.shape(), &pose);
         for mix in Mix::ALL {
             print!("{:14}", mix.name());
-            row::<T>(&frustum, &mix.segments(&pose), rounds);
+            row::<T>(&frustum, &mix.segments(COUNT, &pose), rounds);
         }
     }
 }

@@ -1,23 +1,27 @@
 //! Measuring clippers and saying what was found.
 
 mod case_line;
+mod everyday;
+mod everyday_table;
 mod paper;
 mod paper_answers;
 mod paper_table;
 mod paper_timing;
 mod survey;
+mod turns;
 mod verify;
 mod verify_table;
 mod verify_volumes;
 
 pub use case_line::{CaseLine, CaseLineError, CaseSegment};
+pub use everyday::{Everyday, EverydayRow, everyday, everyday_rounds};
 pub use paper::{PaperRow, PaperTable, Tier, paper_rounds, paper_table, rotated_poses};
 pub use paper_answers::{PaperFailure, Score, Topology};
-pub use paper_timing::Timing;
 pub use survey::{
     Survey, SurveyAlgorithm, SurveyClipper, SurveyError, SurveyOptions, SurveyRow, SurveyTable,
     SurveyTier, SurveyWitness, SurveyWorst, UnknownName, fuses_in_one_instruction, survey,
 };
+pub use turns::{Timing, geometric_mean};
 pub use verify::{ExactClipper, FamilyRow, Options, Subject, Witness, verify, verify_watched};
 pub use verify_table::VerifyTable;
 pub use verify_volumes::{VolumeKind, VolumeRow, VolumeTally, verify_volumes};

@@ -22,7 +22,8 @@
 //!   with the right class. A wrong class is counted, never averaged.
 
 use super::paper_answers::{Exam, PaperFailure, Score};
-use super::paper_timing::{self, Timing};
+use super::paper_timing;
+use super::turns::Timing;
 use crate::clip::{
     Accuracy, Arithmetic, CohenSutherland, CyrusBeck, LiangBarsky, LiangBarskyVariant,
     SegmentClipper, SixPlanes, VwProjection,

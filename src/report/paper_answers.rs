@@ -64,7 +64,7 @@ pub struct Topology {
 }
 
 impl Topology {
-    fn of_answer<T: Real>(answer: &SegmentClip<T>) -> Self {
+    pub(super) fn of_answer<T: Real>(answer: &SegmentClip<T>) -> Self {
         let end = |e: &PartEnd<T>| (e.clipped, e.faces);
         Self {
             class: answer.class,

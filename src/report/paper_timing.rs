@@ -1,8 +1,6 @@
 //! The run times of the paper's table.
 //!
-//! Time on a machine that others use drifts within seconds; ratios drift less. So
-//! the repeats are split into rounds, the clippers take turns within each, a
-//! ratio is taken within each round, and the medians over the rounds are told.
+//! The repeats are split into rounds, in which the clippers take [turns](super::turns).
 //! All clippers are called the same way, through `dyn SegmentClipper`: whether the
 //! compiler would inline one into this loop says nothing about it. Of every
 //! answer something is summed, and the sums must be what they were before.
@@ -12,6 +10,7 @@
 //! So each round is run on a shuffled sequence as well.
 
 use super::paper::{Clipper, SOLID};
+use super::turns::{Timing, Turns};
 use crate::clip::{SegmentClip, SegmentClipper};
 use crate::frustum::Frustum;
 use crate::math::{Real, Segment, Vec3};
@@ -22,15 +21,6 @@ use std::time::Instant;
 /// Passes over the samples in a round: long against the clock's resolution,
 /// short against the drift.
 const PASSES: u32 = 100;
-
-/// A clipper's median time.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Timing {
-    /// In times of textbook Liang-Barsky.
-    pub ratio: f64,
-    /// In nanoseconds a segment.
-    pub nanoseconds: f64,
-}
 
 /// What was measured of one clipper.
 pub(super) struct Measured {
@@ -68,28 +58,25 @@ pub(super) fn measure<T: Real>(
         .map(|(_, c)| pass(c.as_ref(), &frustum, &samples, 1).1)
         .collect();
     let mut steady = vec![true; clippers.len()];
-    let mut times = [Times::new(clippers), Times::new(clippers)];
+    let mut turns = [(); 2].map(|()| Turns::new(clippers.len(), reference));
     let mut random = Random::new(&[u64::from(repeats)]);
     for round in 0..rounds(repeats) {
         let passes = PASSES.min(repeats - round * PASSES);
         let mut sequence = samples.repeat(passes as usize);
         shuffle(&mut sequence, &mut random);
-        for (times, (segments, again)) in times
+        for (turns, (segments, again)) in turns
             .iter_mut()
             .zip([(&samples[..], passes), (&sequence[..], 1)])
         {
-            let mut now = vec![0.0; clippers.len()];
-            for turn in 0..clippers.len() {
-                let i = (round as usize + turn) % clippers.len();
+            turns.round(|i| {
                 let (time, sum) = pass(clippers[i].1.as_ref(), &frustum, segments, again);
-                now[i] = time;
                 steady[i] &= sum == sums[i] * u64::from(passes);
-            }
-            times.add(&now, reference);
+                time
+            });
         }
         on_round();
     }
-    let [in_order, shuffled] = times.map(Times::medians);
+    let [in_order, shuffled] = turns.map(Turns::medians);
     in_order
         .into_iter()
         .zip(shuffled)
@@ -142,43 +129,6 @@ pub(super) fn shuffle<T>(values: &mut [T], random: &mut Random) {
     }
 }
 
-/// The rounds' times and ratios of each clipper.
-struct Times {
-    nanoseconds: Vec<Vec<f64>>,
-    ratios: Vec<Vec<f64>>,
-}
-
-impl Times {
-    fn new<T>(clippers: &[Clipper<T>]) -> Self {
-        Self {
-            nanoseconds: vec![Vec::new(); clippers.len()],
-            ratios: vec![Vec::new(); clippers.len()],
-        }
-    }
-
-    fn add(&mut self, now: &[f64], reference: usize) {
-        for (i, &time) in now.iter().enumerate() {
-            self.nanoseconds[i].push(time);
-            self.ratios[i].push(time / now[reference]);
-        }
-    }
-
-    fn medians(self) -> Vec<Timing> {
-        let both = self.nanoseconds.into_iter().zip(self.ratios);
-        both.map(|(nanoseconds, ratios)| Timing {
-            ratio: median(ratios),
-            nanoseconds: median(nanoseconds),
-        })
-        .collect()
-    }
-}
-
-/// The middle one, the greater of two; 0 of none.
-pub(super) fn median(mut values: Vec<f64>) -> f64 {
-    values.sort_by(f64::total_cmp);
-    values.get(values.len() / 2).copied().unwrap_or_default()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -188,10 +138,7 @@ mod tests {
     use std::cell::Cell;
 
     #[test]
-    fn medians_and_shuffles() {
-        assert_eq!(median(vec![5.0, 1.0, 3.0]), 3.0);
-        assert_eq!(median(vec![4.0, 1.0]), 4.0);
-        assert_eq!(median(Vec::new()), 0.0);
+    fn shuffles_keep_what_there_is() {
         let mut values: Vec<u32> = (0..100).collect();
         shuffle(&mut values, &mut Random::new(&[1]));
         assert!(!values.is_sorted());

@@ -1,5 +1,6 @@
 //! Inputs that hurt: the singular samples with their exact answers, and seeded
-//! families of cases around them.
+//! families of cases around them. Beside them, to be fair: everyday segments, in
+//! seeded [`Mix`]es.
 //!
 //! A singular case is only singular if its numbers are. So the [`Solid`]s are
 //! dyadic, and their [`singular_samples`] and [`near_misses`] are carried by a
@@ -26,6 +27,7 @@
 //! ```
 
 mod family;
+mod mix;
 mod placement;
 mod random;
 mod scene;
@@ -36,6 +38,7 @@ mod stiff;
 mod volumes;
 
 pub use family::{BLOCK, Family, UnknownFamily};
+pub use mix::Mix;
 pub use placement::Placement;
 pub use random::Random;
 pub use scene::Scene;

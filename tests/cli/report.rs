@@ -22,13 +22,15 @@ fn rows(args: &[&str]) -> Vec<Value> {
 }
 
 /// The flags of a report of a moment: of families with and without f32.
-const SMALL: [&str; 8] = [
+const SMALL: [&str; 10] = [
     "--cases",
     "40",
     "--rounds",
     "1",
     "--repeat",
     "1",
+    "--everyday",
+    "1500",
     "--families",
     "thin,subnormal",
 ];
@@ -69,7 +71,8 @@ fn the_keys_of_report_json_stay() {
         assert_eq!(keys(object), names);
     };
     promised(
-        "schema frusta command machine seconds seed cases rounds rows witnesses paper peers omitted",
+        "schema frusta command machine seconds seed cases rounds rows witnesses everyday paper \
+         peers omitted",
         &json,
     );
     promised(
@@ -86,10 +89,14 @@ fn the_keys_of_report_json_stay() {
         "algorithm tier family worst value case line",
         &json["witnesses"][0],
     );
+    promised(
+        "mix place algorithm tier slices segments rounds ns_median time_ratio wrong",
+        &json["everyday"][0],
+    );
     promised("what why", &json["omitted"][0]);
     assert_eq!(json["schema"], "frusta-report/1");
-    let command =
-        "frusta report --cases 40 --seed 1 --rounds 1 --repeat 1 --families subnormal,thin";
+    let command = "frusta report --cases 40 --seed 1 --rounds 1 --repeat 1 --everyday 1500 \
+                   --families subnormal,thin";
     assert_eq!(json["command"], command);
     // Six algorithms in nine tiers, in five where there is no f32.
     assert_eq!(json["rows"].as_array().unwrap().len(), 6 * (9 + 5));
@@ -109,6 +116,26 @@ fn a_report_has_no_number_that_is_not_finite() {
     for witness in json["witnesses"].as_array().unwrap() {
         assert!(witness["value"].as_f64() > Some(0.0), "{witness}");
     }
+}
+
+#[test]
+fn everyday_segments_are_clipped_by_seven_in_eight_places_and_rightly() {
+    let json: Value = serde_json::from_slice(&report(&["--json"]).stdout).unwrap();
+    let rows = json["everyday"].as_array().unwrap();
+    assert_eq!(rows.len(), 7 * 8);
+    for row in rows {
+        let mut values = row.as_object().unwrap().values();
+        assert!(!values.any(|v| v.is_object() || v.is_array()), "{row}");
+        assert_eq!((&row["segments"], &row["wrong"]), (&1500.into(), &0.into()));
+        assert!(row["ns_median"].as_f64() > Some(0.0), "{row}");
+        let reference = row["algorithm"] == "liang-barsky-textbook";
+        assert!(!reference || row["time_ratio"] == 1.0, "{row}");
+    }
+    let count = |key: &str, value: Value| rows.iter().filter(|r| r[key] == value).count();
+    assert_eq!(count("slices", true.into()), 3 * 8);
+    assert_eq!(count("tier", "exact".into()), 2 * 8);
+    assert_eq!(count("place", "world".into()), 7 * 4);
+    assert_eq!(count("mix", "mixed".into()), 7 * 2);
 }
 
 #[test]
@@ -145,6 +172,8 @@ fn the_report_is_tables_otherwise() {
         "families: 2; cases of each in each scalar type: 40",
         "\nexact-nearest-f32: 40 cases\nvw ",
         "\nsubnormal ",
+        "\nEveryday segments: 1500 of each mix, f64, 1 rounds",
+        "\nworld  long-crossing ",
         "\nThe 78 singular samples in the standard frame",
         "\nf32, exact\nliang-barsky-textbook     -  ",
         "; to repeat: frusta report --cases 40 ",
@@ -160,8 +189,10 @@ fn timeless(mut json: Value) -> Value {
     for key in ["seconds", "paper"] {
         json[key] = Value::Null;
     }
-    for row in json["rows"].as_array_mut().unwrap() {
-        (row["ns_median"], row["time_ratio"]) = (Value::Null, Value::Null);
+    for list in ["rows", "everyday"] {
+        for row in json[list].as_array_mut().unwrap() {
+            (row["ns_median"], row["time_ratio"]) = (Value::Null, Value::Null);
+        }
     }
     json
 }
@@ -336,6 +367,7 @@ fn wrong_usage_is_told() {
         (["report", "--repeat", "0"], "0 is not in 1.."),
         (["report", "--cases", "0"], "0 is not in 1.."),
         (["report", "--rounds", "0"], "0 is not in 1.."),
+        (["report", "--everyday", "0"], "0 is not in 1.."),
         (
             ["report", "--families", "thin,nowhere"],
             "no family \"nowhere\"",

@@ -427,7 +427,7 @@ pub fn segments() -> Vec<Segments> {
     let lattice = Place::Frustum(Camera::LATTICE);
     let around = Source::AROUND_FRUSTUM;
     add("segment-frustum", "half-lattice".into(), lattice, around);
-    for (name, pose) in mixes::poses() {
+    for (name, pose) in Mix::poses() {
         let place = Place::Frustum(Camera::of_mixes(pose));
         for mix in Mix::ALL {
             let input = match pose.is_identity() {

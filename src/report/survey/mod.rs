@@ -36,6 +36,7 @@ pub use row::{
 pub use table::SurveyTable;
 
 use super::CaseLine;
+use super::turns::Timing;
 use crate::oracle::Oracle;
 use crate::samples::{BLOCK, Family, Scene};
 use entrant::{Entrant, Prepared, Scalar};
@@ -43,7 +44,6 @@ use judge::Case;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};
 use tally::Tally;
-use timing::Time;
 
 /// What to survey, and how much of it.
 #[derive(Clone, Debug, PartialEq)]
@@ -215,7 +215,7 @@ impl Answers<'_> {
     }
 }
 
-fn row(entrant: &Entrant, family: Family, tally: &Tally, time: Time) -> SurveyRow {
+fn row(entrant: &Entrant, family: Family, tally: &Tally, time: Timing) -> SurveyRow {
     SurveyRow {
         algorithm: entrant.algorithm,
         tier: entrant.tier,

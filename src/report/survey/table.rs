@@ -5,6 +5,7 @@
 //! and times are geometric means over the families, so that none outweighs others.
 
 use super::row::{Survey, SurveyAlgorithm, SurveyRow, SurveyTier};
+use crate::report::geometric_mean;
 use crate::report::paper_table::fit;
 use crate::samples::Family;
 use std::fmt;
@@ -158,18 +159,9 @@ fn largest(rows: &[&SurveyRow], of: impl Fn(&SurveyRow) -> f64) -> f64 {
     rows.iter().map(|row| of(row)).fold(0.0, f64::max)
 }
 
-/// The geometric mean of what is positive; 0 of nothing.
+/// The geometric mean; 0 of nothing.
 fn mean(rows: &[&SurveyRow], of: impl Fn(&SurveyRow) -> f64) -> f64 {
-    let values: Vec<f64> = rows
-        .iter()
-        .map(|row| of(row))
-        .filter(|v| *v > 0.0)
-        .collect();
-    if values.is_empty() {
-        return 0.0;
-    }
-    let logarithms: f64 = values.iter().map(|v| v.ln()).sum();
-    (logarithms / values.len() as f64).exp()
+    geometric_mean(rows.iter().map(|row| of(row))).unwrap_or(0.0)
 }
 
 /// A share; one that is not 0 never reads as 0.

@@ -1,8 +1,6 @@
 //! How long the clippers take on a family.
 //!
-//! As for the paper's table (`paper_timing`): a machine that others use drifts, so
-//! all clippers of a family take turns within each round, a ratio is taken within
-//! each, and the medians over the rounds are told. All go through the same list:
+//! All clippers of a family take turns (`turns`), and go through the same list:
 //! cases of several frusta, in an order that no branch predictor knows. An answer
 //! is written where the compiler must assume that it is read.
 
@@ -10,7 +8,8 @@ use super::SurveyOptions;
 use super::entrant::{AnyClipper, Clips, Entrant, Prepared};
 use crate::clip::StageCounts;
 use crate::math::Segment;
-use crate::report::paper_timing::{median, shuffle};
+use crate::report::paper_timing::shuffle;
+use crate::report::turns::{Timing, Turns};
 use crate::samples::{BLOCK, Family, Random};
 use std::hint::black_box;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -18,14 +17,6 @@ use std::time::Instant;
 
 /// How many frusta the cases are from.
 const SCENES: u64 = 16;
-
-/// A clipper's medians.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Time {
-    pub(super) nanoseconds: f64,
-    /// To the reference's.
-    pub(super) ratio: f64,
-}
 
 /// What is clipped.
 struct Cases {
@@ -83,31 +74,15 @@ pub(super) fn measure(
     family: Family,
     options: &SurveyOptions,
     on_round: impl Fn(),
-) -> Vec<Time> {
+) -> Vec<Timing> {
     let cases = Cases::new(family, options);
     let reference = entrants.iter().position(|e| e.is_reference()).unwrap_or(0);
-    let mut times = vec![Vec::new(); entrants.len()];
-    let mut ratios = vec![Vec::new(); entrants.len()];
-    for round in 0..options.rounds as usize {
-        let mut now = vec![0.0; entrants.len()];
-        for turn in 0..entrants.len() {
-            let i = (round + turn) % entrants.len();
-            now[i] = cases.pass(entrants[i]);
-        }
-        for (i, &time) in now.iter().enumerate() {
-            times[i].push(time);
-            let ratio: f64 = time / now[reference];
-            ratios[i].push(if ratio.is_finite() { ratio } else { 0.0 });
-        }
+    let mut turns = Turns::new(entrants.len(), reference);
+    for _ in 0..options.rounds {
+        turns.round(|i| cases.pass(entrants[i]));
         on_round();
     }
-    let medians = times.into_iter().zip(ratios);
-    medians
-        .map(|(times, ratios)| Time {
-            nanoseconds: median(times),
-            ratio: median(ratios),
-        })
-        .collect()
+    turns.medians()
 }
 
 #[inline(never)]

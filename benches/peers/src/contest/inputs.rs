@@ -1,6 +1,6 @@
 //! What everybody is asked about, from a seed.
 
-use crate::mixes::Mix;
+use crate::mixes::{COUNT, Mix};
 use crate::quads::Quad;
 use frusta::samples::Random;
 use frusta::{Pose, Real, Segment, Vec3};
@@ -46,8 +46,7 @@ impl Source {
                 (0..count).map(|_| Segment::new(end(), end())).collect()
             }
             Self::Mix(mix, pose, flat) => {
-                let mut all = mix.segments::<T>(&pose);
-                all.truncate(count);
+                let mut all = mix.segments::<T>(count.min(COUNT), &pose);
                 if let Some(z) = flat {
                     for s in &mut all {
                         s.start.z = T::from_f64(z);

@@ -3,11 +3,11 @@
 //! `docs/report.md` says what the keys mean. They are stable: readers may rely on
 //! them within a schema, and a test holds them here.
 
-use super::Page;
 use super::machine::Machine;
 use super::omitted::Omission;
+use super::{Measured, Page};
 use frusta::math::hex::Hex;
-use frusta::report::{PaperFailure, PaperRow, PaperTable, SurveyRow, SurveyWitness};
+use frusta::report::{Everyday, PaperFailure, PaperRow, PaperTable, SurveyRow, SurveyWitness};
 use serde::Serialize;
 use serde_json::{Value, json};
 
@@ -27,6 +27,7 @@ pub(crate) struct Report<'a> {
     rounds: u32,
     pub(crate) rows: Vec<Row>,
     pub(crate) witnesses: Vec<Witness<'a>>,
+    everyday: Vec<EverydayRow>,
     paper: Vec<Value>,
     peers: Option<&'a Value>,
     omitted: &'a [Omission],
@@ -34,7 +35,11 @@ pub(crate) struct Report<'a> {
 
 impl<'a> Report<'a> {
     pub(crate) fn new(page: &Page<'a>) -> Self {
-        let survey = page.survey;
+        let Measured {
+            survey,
+            everyday,
+            paper,
+        } = page.measured;
         Self {
             schema: SCHEMA,
             frusta: env!("CARGO_PKG_VERSION"),
@@ -46,7 +51,8 @@ impl<'a> Report<'a> {
             rounds: survey.rounds,
             rows: survey.rows.iter().map(Row::new).collect(),
             witnesses: survey.witnesses.iter().map(Witness::new).collect(),
-            paper: paper(page.paper),
+            everyday: self::everyday(everyday),
+            paper: self::paper(paper),
             peers: page.peers,
             omitted: page.omitted,
         }
@@ -132,6 +138,38 @@ impl<'a> Witness<'a> {
             line: &witness.line,
         }
     }
+}
+
+/// A clipper on a mix of everyday segments.
+#[derive(Debug, Serialize)]
+struct EverydayRow {
+    mix: &'static str,
+    place: &'static str,
+    algorithm: &'static str,
+    tier: &'static str,
+    slices: bool,
+    segments: usize,
+    rounds: u32,
+    ns_median: f64,
+    time_ratio: f64,
+    wrong: usize,
+}
+
+fn everyday(everyday: &Everyday) -> Vec<EverydayRow> {
+    let rows = everyday.rows.iter();
+    rows.map(|row| EverydayRow {
+        mix: row.mix.name(),
+        place: row.place,
+        algorithm: row.algorithm,
+        tier: row.tier.name(),
+        slices: row.slices,
+        segments: everyday.segments,
+        rounds: everyday.rounds,
+        ns_median: row.timing.nanoseconds,
+        time_ratio: row.timing.ratio,
+        wrong: row.wrong,
+    })
+    .collect()
 }
 
 /// The paper's table: a row an algorithm, tier and scalar type, then a row a sample

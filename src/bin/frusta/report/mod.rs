@@ -1,5 +1,6 @@
 //! `frusta report`: error against run time, of every algorithm in every arithmetic
-//! on families of hard cases, and the table of the paper that the method is from.
+//! on families of hard cases; run times on everyday segments; and the table of the
+//! paper that the method is from.
 //!
 //! ```text
 //! data     what was measured, as it stands in report.json; its keys
@@ -21,7 +22,8 @@ use clap::Args;
 use data::Report;
 use files::Folder;
 use frusta::report::{
-    PaperTable, Survey, SurveyOptions, SurveyTable, paper_rounds, paper_table, survey,
+    Everyday, PaperTable, Survey, SurveyOptions, SurveyTable, everyday, everyday_rounds,
+    paper_rounds, paper_table, survey,
 };
 use frusta::samples::Family;
 use machine::Machine;
@@ -37,8 +39,8 @@ use std::time::Instant;
 ///
 /// Families of singular, stiff and extreme cases go through every algorithm in plain, fused and
 /// exact arithmetic, in f64 and f32; each answer is held against rational arithmetic. Then all are
-/// timed, in turns. The run times on the 78 singular samples stand beside those of the paper that
-/// projection reduction is from.
+/// timed, in turns; some also on everyday segments, one a call and over slices. The run times on
+/// the 78 singular samples stand beside those of the paper that projection reduction is from.
 #[derive(Args, Debug)]
 #[command(after_long_help = NOTES)]
 pub(crate) struct ReportArgs {
@@ -57,7 +59,7 @@ pub(crate) struct ReportArgs {
     /// Which cases
     #[arg(long, default_value = "1")]
     seed: u64,
-    /// Rounds in which each clipper is timed once a family [default: 61, quick: 3]
+    /// Rounds in which each clipper is timed once a family and mix [default: 61, quick: 3]
     #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u32).range(1..=10_000))]
     rounds: Option<u32>,
     /// How often each of the 78 samples is clipped for the paper's table
@@ -65,6 +67,11 @@ pub(crate) struct ReportArgs {
     #[arg(long, value_name = "COUNT")]
     #[arg(value_parser = clap::value_parser!(u32).range(1..=100_000_000))]
     repeat: Option<u32>,
+    /// Everyday segments of each mix; of few, branch predictors learn the order
+    /// [default: 131072, quick: 65536]
+    #[arg(long, value_name = "COUNT")]
+    #[arg(value_parser = clap::value_parser!(u32).range(1..=10_000_000))]
+    everyday: Option<u32>,
     /// Threads that find the errors [default: one a core]; what they find does not depend on it
     #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u16).range(1..=256))]
     threads: Option<u16>,
@@ -89,18 +96,43 @@ const PEERS: &str = "frusta-peers/1";
 /// bar.
 const PAPER_ROUND: u64 = 150;
 
+/// How many everyday segments weigh as much as one step of the survey's.
+const EVERYDAY_STEP: u64 = 256;
+
 /// What is measured, without what is left to default.
 struct Plan {
     survey: SurveyOptions,
     repeats: u32,
+    /// Everyday segments of each mix.
+    segments: u32,
+}
+
+/// What was measured.
+#[derive(Clone, Debug)]
+pub(crate) struct Measured {
+    /// Error against time.
+    pub(crate) survey: Survey,
+    /// Times on everyday segments.
+    pub(crate) everyday: Everyday,
+    /// The paper's table.
+    pub(crate) paper: PaperTable,
+}
+
+impl Measured {
+    /// Whether every answer of the exact arithmetic is right.
+    fn exact_is_right(&self) -> bool {
+        self.survey.exact_is_right()
+            && self.everyday.exact_is_right()
+            && self.paper.exact_is_right()
+    }
 }
 
 impl Plan {
     fn new(args: &ReportArgs) -> Self {
-        let [cases, rounds, repeats] = if args.quick {
-            [256, 3, 1_000]
+        let [cases, rounds, repeats, segments] = if args.quick {
+            [256, 3, 1_000, 65_536]
         } else {
-            [60_000, 61, 100_000]
+            [60_000, 61, 100_000, 131_072]
         };
         Self {
             survey: SurveyOptions {
@@ -116,6 +148,7 @@ impl Plan {
                 ..SurveyOptions::default()
             },
             repeats: args.repeat.unwrap_or(repeats),
+            segments: args.everyday.unwrap_or(segments),
         }
     }
 
@@ -128,9 +161,12 @@ impl Plan {
             rounds,
             ..
         } = &self.survey;
-        let repeats = self.repeats;
+        let Self {
+            repeats, segments, ..
+        } = self;
         let mut command = format!(
-            "frusta report --cases {cases} --seed {seed} --rounds {rounds} --repeat {repeats}"
+            "frusta report --cases {cases} --seed {seed} --rounds {rounds} --repeat {repeats} \
+             --everyday {segments}"
         );
         if families.len() < Family::ALL.len() {
             let names: Vec<&str> = families.iter().map(|f| f.name()).collect();
@@ -139,13 +175,21 @@ impl Plan {
         command
     }
 
-    fn measure(&self) -> (Survey, PaperTable) {
-        let steps = self.survey.steps() + PAPER_ROUND * paper_rounds(self.repeats);
-        let bar = progress_bar(steps);
-        let survey = survey(&self.survey, &|steps| bar.inc(steps));
-        let paper = paper_table(self.repeats, || bar.inc(PAPER_ROUND));
+    fn measure(&self) -> Measured {
+        let SurveyOptions { rounds, .. } = self.survey;
+        let everyday_round = u64::from(self.segments).div_ceil(EVERYDAY_STEP);
+        let bar = progress_bar(
+            self.survey.steps()
+                + everyday_round * everyday_rounds(rounds)
+                + PAPER_ROUND * paper_rounds(self.repeats),
+        );
+        let measured = Measured {
+            survey: survey(&self.survey, &|steps| bar.inc(steps)),
+            everyday: everyday(self.segments as usize, rounds, || bar.inc(everyday_round)),
+            paper: paper_table(self.repeats, || bar.inc(PAPER_ROUND)),
+        };
         bar.finish_and_clear();
-        (survey, paper)
+        measured
     }
 }
 
@@ -158,10 +202,8 @@ fn distinct(families: &[Family]) -> Vec<Family> {
 /// Everything that a report says.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Page<'a> {
-    /// Error against time.
-    pub(crate) survey: &'a Survey,
-    /// The paper's table.
-    pub(crate) paper: &'a PaperTable,
+    /// What was measured.
+    pub(crate) measured: &'a Measured,
     /// What it was measured on.
     pub(crate) machine: &'a Machine,
     /// Other libraries' results.
@@ -182,15 +224,14 @@ pub(crate) fn run(args: &ReportArgs) -> Result<ExitCode, Failure> {
     let begin = |folder| Folder::begin(folder, &plan.survey.families);
     let folder = args.out.as_deref().map(begin).transpose()?;
     let start = Instant::now();
-    let (survey, paper) = plan.measure();
+    let measured = plan.measure();
     let page = Page {
-        survey: &survey,
-        paper: &paper,
+        measured: &measured,
         machine: &Machine::this(),
         peers: peers.as_ref(),
         command: &plan.command(),
         seconds: start.elapsed().as_secs_f64(),
-        omitted: &omissions(&survey, peers.is_some()),
+        omitted: &omissions(&measured.survey, peers.is_some()),
     };
     let report = Report::new(&page);
     if let Some(folder) = folder {
@@ -201,7 +242,7 @@ pub(crate) fn run(args: &ReportArgs) -> Result<ExitCode, Failure> {
     } else {
         tables(&page, args.out.as_deref())
     })?;
-    Ok(if survey.exact_is_right() && paper.exact_is_right() {
+    Ok(if measured.exact_is_right() {
         ExitCode::SUCCESS
     } else {
         ExitCode::from(crate::WRONG)
@@ -218,8 +259,12 @@ fn tables(page: &Page<'_>, out: Option<&Path>) -> String {
         simd,
         ..
     } = page.machine;
-    let (survey, paper) = (SurveyTable(page.survey), page.paper);
-    let mut text = format!("{survey}\n{paper}");
+    let Measured {
+        survey,
+        everyday,
+        paper,
+    } = page.measured;
+    let mut text = format!("{}\n{everyday}\n{paper}", SurveyTable(survey));
     text += &format!("\n{cpu}, {cores} cores, {os} {arch}, {simd}; Rust {rustc}");
     text += &format!("\n{:.0} s; to repeat: {}\n", page.seconds, page.command);
     if let Some(out) = out {

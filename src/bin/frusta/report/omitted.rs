@@ -51,8 +51,8 @@ pub(crate) fn omissions(survey: &Survey, has_peers: bool) -> Vec<Omission> {
         "it would show what f64 shows already",
     ));
     omitted.push(Omission::new(
-        "clipping over slices",
-        "every time here is one segment a call",
+        "hard cases over slices",
+        "families are timed one segment a call; slices, on everyday segments",
     ));
     if !has_peers {
         omitted.push(Omission::new(

@@ -4,13 +4,16 @@
 //! words    numbers as the page says them      totals   sums over families
 //! axes     logarithmic axes                   marks    shapes and colours
 //! panel    a family's panel, the overview     worst    which cases are drawn
-//! tables   all tables                         style    the style sheet, the script
+//! everyday times on everyday segments         peers    other libraries
+//! tables   most tables                        style    the style sheet, the script
 //! text     what stands between them
 //! ```
 
 mod axes;
+mod everyday;
 mod marks;
 mod panel;
+mod peers;
 mod style;
 mod tables;
 mod text;
@@ -34,12 +37,12 @@ pub(crate) fn html(page: &Page<'_>) -> Result<String, Failure> {
 
 /// A family's panel, as a file of its own.
 pub(crate) fn panel(page: &Page<'_>, family: Family) -> String {
-    let rows = page.survey.rows.iter();
+    let rows = page.measured.survey.rows.iter();
     let rows: Vec<&SurveyRow> = rows.filter(|row| row.family == family).collect();
     panel::file(&rows)
 }
 
 /// Whether there is something to show of a file of other libraries' results.
 pub(crate) fn shows(peers: &Value) -> bool {
-    tables::peers(peers).is_some()
+    peers::rows(peers).is_some()
 }

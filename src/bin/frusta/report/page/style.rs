@@ -37,9 +37,10 @@ code,pre{font:13px/1.45 'DejaVu Sans Mono',ui-monospace,monospace}
 pre{background:var(--paper);border:1px solid var(--faint);border-radius:6px;padding:.7em .9em;\
 overflow-x:auto;white-space:pre-wrap;overflow-wrap:anywhere}
 .lead{font-size:1.15rem}.soft{color:var(--soft)}
-.numbers{display:grid;grid-template-columns:repeat(auto-fit,minmax(220px,1fr));gap:1rem;margin:1.6rem 0}
+.numbers{display:grid;grid-template-columns:repeat(auto-fit,minmax(200px,1fr));gap:1rem;margin:1.6rem 0}
 .number{background:var(--paper);border:1px solid var(--faint);border-radius:8px;padding:1rem 1.1rem}
 .number b{display:block;font-size:1.8rem;line-height:1.2}.number span{color:var(--soft);font-size:.92rem}
+.number b.inline{display:inline;font-size:inherit}
 .panels{display:grid;grid-template-columns:repeat(auto-fill,minmax(min(100%,500px),1fr));gap:1rem}
 figure{margin:0;background:var(--paper);border:1px solid var(--faint);border-radius:8px;padding:.6rem;\
 min-width:0}
@@ -54,8 +55,8 @@ figure svg,figure img{width:100%;height:auto;display:block}
 table{border-collapse:collapse;font-size:.86rem;font-variant-numeric:tabular-nums;width:100%}
 th,td{padding:.25em .45em;text-align:right;white-space:nowrap;border-bottom:1px solid var(--faint)}
 th{cursor:default;color:var(--soft);font-weight:600}th.sortable{cursor:pointer}
-td.t,th.t{text-align:left}td.w{white-space:normal;min-width:16rem;text-align:left}
-td.bad{background:var(--bad)}details{margin:.4rem 0}summary{cursor:pointer;padding:.2rem 0}
+td.t,th.t{text-align:left}td.w{white-space:normal;min-width:11rem}
+td.bad{background:var(--bad)}td.own{font-weight:600}th.group{text-align:center}details{margin:.4rem 0}summary{cursor:pointer;padding:.2rem 0}
 nav{font-size:.95rem}nav a{margin-right:1rem}
 @media print{.panels{grid-template-columns:1fr 1fr}figure{break-inside:avoid}}
 ";

@@ -4,10 +4,9 @@ use super::totals::Total;
 use super::words::{count, figure, percent};
 use frusta::report::{PaperTable, Survey, SurveyAlgorithm, SurveyRow, SurveyTier, Tier};
 use maud::{Markup, html};
-use serde_json::Value;
 
 /// A table that a click sorts.
-fn sortable(heads: &[(&str, &str)], rows: &Markup) -> Markup {
+pub(super) fn sortable(heads: &[(&str, &str)], rows: &Markup) -> Markup {
     html! {
         div.scroll {
             table.sort {
@@ -179,90 +178,4 @@ pub(super) fn proportion(table: &PaperTable) -> Option<String> {
     let all = ["liang-barsky-textbook", "six-planes", "vw"].map(ratio);
     let all: Option<Vec<String>> = all.into_iter().collect();
     all.map(|all| all.join(" : "))
-}
-
-/// The columns of other libraries' results: how each did each job.
-const PEERS: [&str; 21] = [
-    "job",
-    "library",
-    "version",
-    "function",
-    "scalar",
-    "input",
-    "cases",
-    "ns_median",
-    "time_ratio",
-    "time_ratio_slices",
-    "time_ratio_f32",
-    "time_ratio_slices_f32",
-    "wrong",
-    "phantom",
-    "missed",
-    "misplaced",
-    "outside",
-    "refused",
-    "max_error_u_scale",
-    "checked_by",
-    "note",
-];
-
-/// Those of them that ought to be zero.
-const FAULTS: [&str; 5] = ["wrong", "phantom", "missed", "misplaced", "refused"];
-
-/// Of single inputs that end badly.
-const FACTS: [&str; 6] = ["library", "version", "what", "input", "result", "ours"];
-
-/// How other libraries did, as their file has it; `None` if it has no rows.
-pub(super) fn peers(peers: &Value) -> Option<Markup> {
-    listed(peers.get("rows")?, &PEERS)
-}
-
-/// What single inputs did to other libraries; `None` if the file has none.
-pub(super) fn facts(peers: &Value) -> Option<Markup> {
-    listed(peers.get("facts")?, &FACTS)
-}
-
-/// A list of objects as a table, without the columns that none of them has.
-fn listed(rows: &Value, columns: &[&str]) -> Option<Markup> {
-    let rows = rows.as_array()?;
-    let known = |key: &&&str| rows.iter().any(|row| !row[**key].is_null());
-    let keys: Vec<&str> = columns.iter().filter(known).copied().collect();
-    let heads: Vec<(String, &str)> = keys
-        .iter()
-        .map(|key| (key.replace('_', " "), if is_text(key) { "t" } else { "" }))
-        .collect();
-    let heads: Vec<(&str, &str)> = heads.iter().map(|(h, c)| (h.as_str(), *c)).collect();
-    let body = html! {
-        @for row in rows { tr { @for key in &keys { (value(key, row.get(*key))) } } }
-    };
-    (!keys.is_empty()).then(|| sortable(&heads, &body))
-}
-
-fn is_text(key: &str) -> bool {
-    let words = [
-        "job", "library", "version", "function", "scalar", "input", "note",
-    ];
-    FACTS.contains(&key) || words.contains(&key)
-}
-
-/// A peer's cell, whatever the file has there.
-fn value(key: &str, value: Option<&Value>) -> Markup {
-    match value {
-        None | Some(Value::Null) if is_text(key) => html! { td.t { "-" } },
-        None | Some(Value::Null) => html! { td { "-" } },
-        Some(Value::Number(n)) => {
-            let number = n.as_f64().unwrap_or(0.0);
-            let text = match n.as_u64() {
-                Some(whole) => count(whole),
-                None => figure(number),
-            };
-            let fault = FAULTS.contains(&key);
-            html! { td.bad[fault && number > 0.0] data-v=(number) { (text) } }
-        }
-        Some(Value::String(text)) if ["note", "result", "ours", "what"].contains(&key) => {
-            html! { td.w { (text) } }
-        }
-        Some(Value::String(text)) => html! { td.t { (text) } },
-        Some(other) => html! { td.t { (other.to_string()) } },
-    }
 }

@@ -4,28 +4,29 @@ use super::marks::{colour, mark};
 use super::panel::{KEY, by_family, overview, panel};
 use super::totals::Total;
 use super::words::{count, figure, percent};
-use super::{style, tables, worst};
+use super::{everyday, peers, style, tables, worst};
 use crate::failure::Failure;
 use crate::picture::Theme;
 use crate::replay;
-use crate::report::Page;
+use crate::report::{Measured, Page};
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
-use frusta::report::{Survey, SurveyAlgorithm, SurveyTier};
+use frusta::report::{SurveyAlgorithm, SurveyTier};
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 use serde_json::Value;
 
 /// All of it.
 pub(super) fn page(page: &Page<'_>) -> Result<String, Failure> {
     let body = html! {
-        (headline(page))
+        (headline(page.measured))
+        (everyday::section(&page.measured.everyday))
         (how_to_read())
         (all_families(page))
         (panels(page))
         (worst_cases(page)?)
         (in_full(page))
         (paper(page))
-        (peers(page.peers))
+        (peers::section(page.peers))
         (bias())
         (left_out(page))
         (made(page))
@@ -49,25 +50,25 @@ pub(super) fn page(page: &Page<'_>) -> Result<String, Failure> {
     Ok(html.into_string())
 }
 
-/// What was asked, and the answer in four numbers.
-fn headline(page: &Page<'_>) -> Markup {
-    let survey = page.survey;
-    let families = by_family(&survey.rows).len();
+/// What was asked, and the answer in five numbers.
+fn headline(measured: &Measured) -> Markup {
+    let families = by_family(&measured.survey.rows).len();
     html! {
         p.soft { "frusta report" }
         h1 { "What does an exactly right clip of a segment against a view frustum cost?" }
         p.lead {
             "Six algorithms in nine kinds of arithmetic clipped the same segments, in " (families)
             " families of singular, stiff and extreme cases. Every answer was held against rational \
-             arithmetic, and every clipper was timed."
+             arithmetic, and every clipper was timed; four of them on everyday segments, too."
         }
-        (numbers(survey))
+        (numbers(measured))
         (contents())
     }
 }
 
 /// How many answers are wrong, and what it costs that none is.
-fn numbers(survey: &Survey) -> Markup {
+fn numbers(measured: &Measured) -> Markup {
+    let survey = &measured.survey;
     let plain = Total::of(survey, |row| !row.tier.is_exact());
     let exact = Total::of(survey, |row| row.tier.is_exact());
     let fast = Total::of_clipper(survey, SurveyAlgorithm::Vw, SurveyTier::ExactFast);
@@ -115,6 +116,7 @@ fn numbers(survey: &Survey) -> Markup {
                     span { "cases of each family in each scalar type." }
                 }
             }
+            (everyday::number(&measured.everyday))
         }
     }
 }
@@ -124,8 +126,8 @@ fn contents() -> Markup {
     html! {
         nav {
             @for (id, name) in [
-                ("read", "how to read a panel"), ("overview", "all families"), ("panels", "panels"),
-                ("worst", "worst cases"), ("tables", "tables"), ("paper", "the paper's table"),
+                ("everyday", "everyday segments"), ("read", "how to read a panel"),
+                ("overview", "all families"), ("panels", "panels"), ("worst", "worst cases"), ("tables", "tables"), ("paper", "the paper's table"),
                 ("peers", "other libraries"), ("bias", "our bias"), ("omitted", "left out"),
                 ("made", "how it was made"),
             ] {
@@ -186,12 +188,12 @@ fn all_families(page: &Page<'_>) -> Markup {
             "The same axes for all. The grey line across is where " code { "exact-fast" }
             " promises to stay below; the one upwards is the time of textbook Liang-Barsky."
         }
-        figure { div.scroll.wide { (PreEscaped(overview(&page.survey.rows))) } }
+        figure { div.scroll.wide { (PreEscaped(overview(&page.measured.survey.rows))) } }
         h3 { "Totals" }
-        (tables::tiers(page.survey))
+        (tables::tiers(&page.measured.survey))
         details {
             summary { "each algorithm in each tier" }
-            (tables::totals(page.survey))
+            (tables::totals(&page.measured.survey))
         }
         p.soft {
             "Time ratios are geometric means over the families. f32 tiers only run on families that \
@@ -205,7 +207,7 @@ fn panels(page: &Page<'_>) -> Markup {
     html! {
         h2 #panels { "Panels" }
         div.panels {
-            @for rows in by_family(&page.survey.rows) {
+            @for rows in by_family(&page.measured.survey.rows) {
                 @if let Some(first) = rows.first() {
                     figure id=(first.family.name()) {
                         (PreEscaped(panel(&rows)))
@@ -220,7 +222,7 @@ fn panels(page: &Page<'_>) -> Markup {
 /// Drawn in both themes; the browser shows the one of its own.
 fn worst_cases(page: &Page<'_>) -> Result<Markup, Failure> {
     let mut drawn = Vec::new();
-    for witness in worst::choose(page.survey) {
+    for witness in worst::choose(&page.measured.survey) {
         let title = format!(
             "{}: {} in {}",
             witness.family, witness.algorithm, witness.tier
@@ -274,7 +276,7 @@ fn in_full(page: &Page<'_>) -> Markup {
              answers that differ for swapped ends, answers that change when clipped again; cases that \
              the filter did not settle, and that needed expansions or big integers."
         }
-        @for rows in by_family(&page.survey.rows) {
+        @for rows in by_family(&page.measured.survey.rows) {
             @if let Some(first) = rows.first() {
                 details {
                     summary { b { (first.family.name()) } " " span.soft { (first.family.describe()) } }
@@ -292,53 +294,17 @@ fn paper(page: &Page<'_>) -> Markup {
             "The paper that projection reduction (V/W) is from gives run times of Liang-Barsky, of the \
              general algorithm (six planes) and of projection reduction on 78 singular samples as \
              4243 : 4228 : 4212, without a unit or a machine"
-            @if let Some(ours) = tables::proportion(page.paper) {
+            @if let Some(ours) = tables::proportion(&page.measured.paper) {
                 "; ours, on the same scale, are " b { (ours) }
             }
             ". It says that the general algorithm errs where the two others do not. The 78 samples are \
-             our derivation: it lists none. Each was clipped " (count(u64::from(page.paper.repeats)))
-            " times, in " (page.paper.rounds) " rounds."
+             our derivation: it lists none. Each was clipped " (count(u64::from(page.measured.paper.repeats)))
+            " times, in " (page.measured.paper.rounds) " rounds."
         }
-        (tables::paper(page.paper))
+        (tables::paper(&page.measured.paper))
         p.soft {
             "Ratios are to textbook Liang-Barsky, plain, in the same type; larger is slower. In order: as \
              in the paper, which branch predictors learn by heart. Wrong counts classes and face sets."
-        }
-    }
-}
-
-fn peers(peers: Option<&Value>) -> Markup {
-    html! {
-        h2 #peers { "Other libraries" }
-        @match peers.and_then(tables::peers) {
-            Some(table) => {
-                p {
-                    "Other crates at the same jobs on the same inputs. Their answers are held against the \
-                     same rational arithmetic: a phantom is a hit where nothing is hit, a miss the \
-                     opposite. A library that promises less is not wrong by its own measure; its notes \
-                     say what it does promise. Misplaced is an end in a wrong place; outside, one that is not \
-                     in the set by a rounding, which is not called wrong."
-                }
-                p.soft {
-                    "Time ratios are to exact-class V/W in f64, one segment a call; time ratio slices, to the \
-                     same over slices. Larger is slower; a dash is where there is nothing to tell."
-                }
-                (table)
-                @if let Some(facts) = peers.and_then(tables::facts) {
-                    h3 { "Inputs that end badly" }
-                    (facts)
-                }
-            }
-            None => {
-                p {
-                    "This report has no results of them. They are measured in a workspace of their own, \
-                     so that nobody's build pays for it, and shown here if their file is given:"
-                }
-                pre {
-                    "cargo run --release --manifest-path benches/peers/Cargo.toml -- --out peers.json\n"
-                    "frusta report --peers peers.json --out report"
-                }
-            }
         }
     }
 }
@@ -361,8 +327,12 @@ fn bias() -> Markup {
                  same hands; the files that come with this page let anybody check it with other ones."
             }
             li {
-                "Singular cases take the exact stages' time, so run times here flatter plain arithmetic. \
-                 They are of one segment a call; slices are faster."
+                "Singular cases take the exact stages' time, so run times on the families flatter plain \
+                 arithmetic. They are of one segment a call."
+            }
+            li {
+                "The mixes of everyday segments are made up, by us; nobody's scene was recorded. How much \
+                 faster or slower exact clipping is depends on how many segments are outside, inside and cut."
             }
             li { "The reference of all ratios, textbook Liang-Barsky, is not the fastest plain algorithm." }
         }
@@ -378,7 +348,7 @@ fn left_out(page: &Page<'_>) -> Markup {
 
 fn made(page: &Page<'_>) -> Markup {
     let machine = serde_json::to_value(page.machine).unwrap_or_default();
-    let survey = page.survey;
+    let survey = &page.measured.survey;
     html! {
         h2 #made { "How it was made, and how to make it again" }
         pre { (page.command) }

@@ -1,7 +1,6 @@
 //! Sums over all families, which the headline is made of.
 
-use super::words::geometric_mean;
-use frusta::report::{Survey, SurveyAlgorithm, SurveyRow, SurveyTier};
+use frusta::report::{Survey, SurveyAlgorithm, SurveyRow, SurveyTier, geometric_mean};
 
 /// Some rows, added.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -43,16 +43,6 @@ pub(super) fn count(n: u64) -> String {
     text
 }
 
-/// `exp(mean(ln x))` of the positive finite values; `None` without any.
-pub(super) fn geometric_mean(values: impl Iterator<Item = f64>) -> Option<f64> {
-    let (mut sum, mut n) = (0.0, 0_u32);
-    for value in values.filter(|v| v.is_finite() && *v > 0.0) {
-        sum += value.ln();
-        n += 1;
-    }
-    (n > 0).then(|| (sum / f64::from(n)).exp())
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -73,12 +63,5 @@ mod tests {
             [0, 999, 1000, 12_345_678].map(count),
             ["0", "999", "1,000", "12,345,678"]
         );
-    }
-
-    #[test]
-    fn means_are_of_what_has_a_logarithm() {
-        let mean = geometric_mean([1.0, 4.0, 0.0, f64::NAN].into_iter()).unwrap();
-        assert!((mean - 2.0).abs() < 1e-12);
-        assert_eq!(geometric_mean([0.0].into_iter()), None);
     }
 }
