@@ -223,8 +223,7 @@ impl<T: Real, const INSIDE: bool> Extremes<T, INSIDE> {
             let at = |k: usize| V::from_slice(simd, &block[k][group * N..][..N]);
             let low = [at(0), at(1), at(2)];
             let high = [at(3), at(4), at(5)];
-            valid = valid
-                & (low[0].simd_le(high[0]) & low[1].simd_le(high[1]) & low[2].simd_le(high[2]));
+            valid &= low[0].simd_le(high[0]) & low[1].simd_le(high[1]) & low[2].simd_le(high[2]);
             least = least.min(low[0].min(low[1]).min(low[2]));
             most = most.max(high[0].max(high[1]).max(high[2]));
             let along = value::<S, V, T, N>(&n, zero, simd, &farthest, group);

@@ -159,7 +159,7 @@ where
         let at = |array: usize| V::from_slice(simd, &block[array][group * N..][..N]);
         most = most.max(at(0).abs().max(at(1).abs()).max(at(2).abs()));
         radius = radius.max(at(3));
-        valid = valid & at(3).simd_ge(zero);
+        valid &= at(3).simd_ge(zero);
     }
     let size = most + most + most + radius;
     let largest = size.to_array().into_iter();

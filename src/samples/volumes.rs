@@ -152,7 +152,7 @@ fn outward(frustum: &Frustum, face: Face) -> Vec3<f64> {
             }
             Shape::Infinite { slopes, .. } => (slopes.to_array()[side], 1.0),
         };
-        let sign = if side % 2 == 0 { -1.0 } else { 1.0 };
+        let sign = if side.is_multiple_of(2) { -1.0 } else { 1.0 };
         let mut normal = Vec3::new(0.0, 0.0, -rise * depthward);
         normal[side / 2] = depth;
         unit(normal) * sign

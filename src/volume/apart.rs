@@ -250,7 +250,8 @@ impl Culler {
             if greatest < -threshold {
                 return true;
             }
-            unsettled |= !(greatest > threshold);
+            let is_within = greatest > threshold;
+            unsettled |= !is_within;
         }
         let outside = |h: &HalfSpace| volume.side(&middle, size, h, counts) == Containment::Outside;
         unsettled && separators.iter().any(outside)

@@ -107,13 +107,12 @@ impl Planes {
             greatest = less(greatest, high);
         }
         let threshold = threshold(size, self.constant);
+        let is_within = greatest > threshold;
         if greatest < -threshold {
             Some(Containment::Outside)
-        } else if !(greatest > threshold) {
-            None
-        } else if least > threshold {
+        } else if is_within && least > threshold {
             Some(Containment::Inside)
-        } else if least < -threshold {
+        } else if is_within && least < -threshold {
             Some(Containment::Crossing)
         } else {
             None

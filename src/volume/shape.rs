@@ -187,9 +187,7 @@ const HALF_AXES: [[&str; 3]; 3] = [
 
 #[inline(always)]
 fn check_finite<T: Real>(names: [&'static str; 3], v: Vec3<T>) -> Result<(), VolumeError> {
-    // One test for all three: the difference of what is not finite is NaN.
-    let differences = (v.x - v.x) + (v.y - v.y) + (v.z - v.z);
-    if differences == T::ZERO {
+    if v.is_finite() {
         return Ok(());
     }
     non_finite(names, v.to_f64())
