@@ -226,7 +226,11 @@ fn known_failures_are_counted() {
 fn easy_boxes_are_everybodys() {
     for contest in cullings() {
         let camera = contest.camera();
-        let half = if contest.job() == "cull-point" { 0.0 } else { 0.25 };
+        let half = if contest.job() == "cull-point" {
+            0.0
+        } else {
+            0.25
+        };
         // Across, up and ahead, in the camera's own frame.
         for (at, meets) in [
             ([0.0, 0.0, 2.0], true),
