@@ -176,7 +176,7 @@ fn the_report_is_tables_otherwise() {
         "\nworld  long-crossing ",
         "\nThe 78 singular samples in the standard frame",
         "\nf32, exact\nliang-barsky-textbook     -  ",
-        "; to repeat: frusta report --cases 40 ",
+        "; to repeat:\nfrusta report --cases 40 ",
     ] {
         assert!(tables.contains(part), "{part:?} not in\n{tables}");
     }

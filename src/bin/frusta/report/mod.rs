@@ -266,7 +266,7 @@ fn tables(page: &Page<'_>, out: Option<&Path>) -> String {
     } = page.measured;
     let mut text = format!("{}\n{everyday}\n{paper}", SurveyTable(survey));
     text += &format!("\n{cpu}, {cores} cores, {os} {arch}, {simd}; Rust {rustc}");
-    text += &format!("\n{:.0} s; to repeat: {}\n", page.seconds, page.command);
+    text += &format!("\n{:.0} s; to repeat:\n{}\n", page.seconds, page.command);
     if let Some(out) = out {
         text += &format!("written to {}\n", out.display());
     }

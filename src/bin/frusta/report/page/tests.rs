@@ -167,8 +167,8 @@ fn texts(html: &str, name: &str) -> Vec<Vec<String>> {
     all.map(pieces).collect()
 }
 
-#[test]
-fn other_libraries_wrong_answers_come_first() {
+/// Results of two libraries and ours.
+fn peers() -> Value {
     let row = |job: &str, library: &str, function: &str, input: &str, missed: u64| {
         json!({
             "job": job, "library": library, "function": function, "input": input, "cases": 9,
@@ -177,7 +177,7 @@ fn other_libraries_wrong_answers_come_first() {
     };
     let mut untold = row("box", "other", "times only", "half-lattice", 0);
     untold["cases"] = Value::Null;
-    let peers = json!({
+    json!({
         "headlines": [
             {"what": "box: other / ours, f64", "ratio": 2.5, "least": 1.25},
             {"what": "box: other / ours, f32", "ratio": 3.5, "least": 0.5},
@@ -193,8 +193,12 @@ fn other_libraries_wrong_answers_come_first() {
         ],
         "facts": [{"library": "other", "result": "panics"}],
         "bias": "we chose",
-    });
-    let html = page(&measured(), Some(&peers), &[]);
+    })
+}
+
+#[test]
+fn other_libraries_wrong_answers_come_first() {
+    let html = page(&measured(), Some(&peers()), &[]);
     let html = &html[html.find("id=\"peers\"").unwrap()..html.find("id=\"bias\"").unwrap()];
     let places = [
         "ours, f64",
