@@ -49,16 +49,24 @@ pub(crate) fn run<J: Send, R: Send, W: FnMut(J) -> Result<R, Failure>>(
     })
 }
 
-/// Starts a thread, if the system has one left. Those that run already end when
-/// their channels do.
+/// Starts a thread, if the system has one left, and waits until it runs: a thread takes
+/// memory as it starts, and several at once might find less than each was promised. Those
+/// that run already end when their channels do.
 fn start<'scope>(
     scope: &'scope thread::Scope<'scope, '_>,
     body: impl FnOnce() + Send + 'scope,
 ) -> Result<(), Failure> {
+    let (runs, is_running) = sync_channel(1);
+    let body = move || {
+        let _ = runs.send(());
+        body();
+    };
     let started = room_for_a_thread()
         .and_then(|()| thread::Builder::new().spawn_scoped(scope, body))
-        .map(drop);
-    started.map_err(|e| Failure::new(format_args!("threads: {e}")))
+        .map(|_| is_running.recv());
+    started
+        .map(drop)
+        .map_err(|e| Failure::new(format_args!("threads: {e}")))
 }
 
 /// A thread's stack, and as much for what it and those that are just starting need
