@@ -121,11 +121,11 @@ impl Oracle {
     /// assert_eq!(oracle.classify(&touching), Containment::Crossing);
     /// let (outside, crossing) = oracle.volume_faces(&touching);
     /// assert!(outside.is_empty());
-    /// assert_eq!(crossing, [Face::Near, Face::Right].into_iter().collect());
+    /// assert_eq!(crossing, [Face::Near, Face::Right, Face::Top].into_iter().collect());
     /// assert!(oracle.intersects(&touching));
     ///
     /// // Outside of no face's plane, beyond the edge between right and near.
-    /// let beyond = Sphere::new([1.5, 0.0, 0.5], 0.625).into();
+    /// let beyond = Sphere::new([1.375, 0.0, 0.125], 0.90625).into();
     /// assert_eq!(oracle.classify(&beyond), Containment::Crossing);
     /// assert!(!oracle.intersects(&beyond));
     /// # Ok::<(), frusta::FrustumError>(())

@@ -198,11 +198,11 @@ impl Culler {
     /// # let far = EndRect::new(3.0, -3.0, 3.0, -3.0, 3.0);
     /// # let frustum = Frustum::new(Pose::IDENTITY, Shape::Finite { near, far })?;
     /// let culler = Culler::new(&frustum);
-    /// // Beyond the edge from (1, 1, 1) to (3, 3, 3), outside of no face.
-    /// let beyond = Aabb::new([2.5, 2.0, 0.0], [3.0, 3.0, 2.0]);
+    /// // Beyond the edge between right and far, outside of neither.
+    /// let beyond = Aabb::new([3.5, -9.0, 2.0], [9.0, 9.0, 9.0]);
     /// assert_eq!(culler.classify(beyond)?, Containment::Crossing);
     /// assert_eq!(culler.classify_exact(beyond)?, Containment::Outside);
-    /// let touching = Aabb::new([2.0, 2.0, 0.0], [3.0, 3.0, 2.0]);
+    /// let touching = Aabb::new([3.0, -9.0, 2.0], [9.0, 9.0, 9.0]);
     /// assert_eq!(culler.classify_exact(touching)?, Containment::Crossing);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
