@@ -49,36 +49,38 @@ pub(crate) fn run<J: Send, R: Send, W: FnMut(J) -> Result<R, Failure>>(
     })
 }
 
-/// Starts a thread, if the system has one left, and waits until it runs: a thread takes
-/// memory as it starts, and several at once might find less than each was promised. Those
-/// that run already end when their channels do.
+/// Starts a thread. Those that run already end when their channels do.
 fn start<'scope>(
     scope: &'scope thread::Scope<'scope, '_>,
     body: impl FnOnce() + Send + 'scope,
 ) -> Result<(), Failure> {
-    let (runs, is_running) = sync_channel(1);
-    let body = move || {
-        let _ = runs.send(());
-        body();
+    let spawn = |runs: SyncSender<()>| {
+        let body = move || {
+            let _ = runs.send(());
+            body();
+        };
+        thread::Builder::new().spawn_scoped(scope, body)
     };
-    let started = room_for_a_thread()
-        .and_then(|()| thread::Builder::new().spawn_scoped(scope, body))
-        .map(|_| is_running.recv());
-    started
-        .map(drop)
-        .map_err(|e| Failure::new(format_args!("threads: {e}")))
+    start_by(spawn).map_err(|e| Failure::new(format_args!("threads: {e}")))
 }
 
-/// A thread's stack, and as much for what it and those that are just starting need
-/// at once.
+/// A thread's stack, and as much for what else it needs as it starts.
 const THREAD_ROOM: usize = 4 << 20;
 
-/// Whether there is memory for one more thread. The standard library asks too late
-/// for a part of it: a thread that has a stack but no room for its signals' aborts
-/// the program.
-pub(crate) fn room_for_a_thread() -> io::Result<()> {
+/// Starts a thread, if there is one left and memory for it, and waits until it runs, which
+/// it says through the channel that it is given.
+///
+/// The standard library asks too late for a part of the memory: a thread that has a stack
+/// but no room for its signals' aborts the program. Of several that start at once each
+/// might be promised the same.
+pub(crate) fn start_by<T>(spawn: impl FnOnce(SyncSender<()>) -> io::Result<T>) -> io::Result<()> {
     let room = Vec::<u8>::new().try_reserve_exact(THREAD_ROOM);
-    room.map_err(|_| io::Error::from(io::ErrorKind::OutOfMemory))
+    room.map_err(|_| io::Error::from(io::ErrorKind::OutOfMemory))?;
+    let (runs, is_running) = sync_channel(1);
+    spawn(runs)?;
+    // A thread that is gone without a word ran, too.
+    let _ = is_running.recv();
+    Ok(())
 }
 
 fn work<J, R>(

@@ -18,7 +18,7 @@ use crate::input::{self, EdgeChoice, Input};
 use crate::number::Scalar;
 use crate::output::{self, Kind, Writer};
 use crate::picture::{Canvas, PictureArgs, View};
-use crate::pipeline::room_for_a_thread;
+use crate::pipeline::start_by;
 use crate::stats::{Report, Times};
 use crate::terminal::{print, say};
 use crate::view::ViewArgs;
@@ -196,9 +196,12 @@ impl ClipArgs {
 /// The threads that read a mesh and sum up ink.
 fn threads_of(count: usize) -> Result<rayon::ThreadPool, Failure> {
     let start = |thread: rayon::ThreadBuilder| {
-        room_for_a_thread()?;
-        let started = std::thread::Builder::new().spawn(|| thread.run());
-        started.map(drop)
+        start_by(|runs| {
+            std::thread::Builder::new().spawn(move || {
+                let _ = runs.send(());
+                thread.run();
+            })
+        })
     };
     let builder = rayon::ThreadPoolBuilder::new().num_threads(count);
     let pool = builder.spawn_handler(start).build();
