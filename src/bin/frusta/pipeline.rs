@@ -7,7 +7,9 @@
 //! jobs each, which bounds the memory.
 
 use crate::failure::Failure;
+use std::hint::black_box;
 use std::io;
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::thread;
 
@@ -67,6 +69,21 @@ fn start<'scope>(
 /// A thread's stack, and as much for what else it needs as it starts.
 const THREAD_ROOM: usize = 4 << 20;
 
+/// Asks the system whether there is as much memory.
+///
+/// Each time for a little more: an allocator that has given back a large piece may keep the
+/// next one of that size to itself (glibc's threshold follows such pieces up to 32 MiB),
+/// and what it has in store says nothing of what a stack can get.
+fn room_for_a_thread() -> io::Result<()> {
+    static ASKED: AtomicUsize = AtomicUsize::new(0);
+    let more = ASKED.fetch_add(1, Ordering::Relaxed) % 1024 * (16 << 10);
+    let mut piece = Vec::<u8>::new();
+    let room = piece.try_reserve_exact(THREAD_ROOM + more);
+    // Or the compiler sees that nobody needs it.
+    black_box(&piece);
+    room.map_err(|_| io::Error::from(io::ErrorKind::OutOfMemory))
+}
+
 /// Starts a thread, if there is one left and memory for it, and waits until it runs, which
 /// it says through the channel that it is given.
 ///
@@ -74,8 +91,7 @@ const THREAD_ROOM: usize = 4 << 20;
 /// but no room for its signals' aborts the program. Of several that start at once each
 /// might be promised the same.
 pub(crate) fn start_by<T>(spawn: impl FnOnce(SyncSender<()>) -> io::Result<T>) -> io::Result<()> {
-    let room = Vec::<u8>::new().try_reserve_exact(THREAD_ROOM);
-    room.map_err(|_| io::Error::from(io::ErrorKind::OutOfMemory))?;
+    room_for_a_thread()?;
     let (runs, is_running) = sync_channel(1);
     spawn(runs)?;
     // A thread that is gone without a word ran, too.
