@@ -107,7 +107,7 @@ impl Oracle {
     /// contains it, `Crossing` otherwise.
     ///
     /// A volume that is `Crossing` need not have a point of the frustum: that is what
-    /// [`Oracle::intersects`] says. About 5 us.
+    /// [`Oracle::intersects`] says. Takes 5 to 10 us.
     ///
     /// ```
     /// use frusta::oracle::Oracle;
@@ -144,7 +144,7 @@ impl Oracle {
 
     /// The faces whose planes have all of a volume strictly outside of them, and those
     /// whose planes have some of it there, but not all. Costs what
-    /// [`Oracle::classify`] does.
+    /// [`Oracle::classify`] does, and has an example there.
     ///
     /// # Panics
     /// [`Volume::check`] says that it is no volume.
@@ -154,6 +154,33 @@ impl Oracle {
     }
 
     /// Whether a volume and the frustum have a point in common; touching counts.
+    ///
+    /// On hard volumes it takes 15 us for a box along the axes or a ball and 80 us for an
+    /// oriented box, on the average. What all volumes need of a frustum is prepared with
+    /// the first of them.
+    ///
+    /// ```
+    /// use frusta::oracle::Oracle;
+    /// use frusta::{Direction, EndRect, Frustum, Obb, Pose, Rect, Shape};
+    /// // A quarter of space: x >= 0, y >= 0, z <= 0, cut by x <= 1 - z and y <= 1 - z.
+    /// let frustum = Frustum::new(
+    ///     Pose::IDENTITY,
+    ///     Shape::Infinite {
+    ///         near: EndRect::new(0.0, 0.0, 1.0, 0.0, 1.0),
+    ///         slopes: Rect::new(0.0, 1.0, 0.0, 1.0),
+    ///         direction: Direction::MinusZ,
+    ///     },
+    /// )?;
+    /// let oracle = Oracle::new(&frustum);
+    /// // A needle across the edge where x = y = 0, which it touches or passes by.
+    /// let needle = |x: f64| {
+    ///     let zero = [0.0; 3];
+    ///     Obb::new([x, 0.0, -1e6], [[3.0, -3.0, 1.0], zero, zero]).into()
+    /// };
+    /// assert!(oracle.intersects(&needle(0.0)));
+    /// assert!(!oracle.intersects(&needle(-5e-324)));
+    /// # Ok::<(), frusta::FrustumError>(())
+    /// ```
     ///
     /// # Panics
     /// [`Volume::check`] says that it is no volume.

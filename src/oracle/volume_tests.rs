@@ -18,8 +18,7 @@ fn symmetric() -> Oracle {
     in_world(Shape::Finite { near, far })
 }
 
-/// Half of all space's quarter: x and y from 0 on, z from 0 to minus infinity, x up to
-/// 1 - z.
+/// Along -z without an end: x from 0 to 1 - z, y from 0 to 1.
 fn endless() -> Oracle {
     in_world(Shape::Infinite {
         near: EndRect::new(0.0, 0.0, 1.0, 0.0, 1.0),
