@@ -123,7 +123,8 @@ fn validated(file: &Path, mut root: json::Root) -> Result<json::Root, Failure> {
     check_positions(&root).map_err(|(place, why)| Failure::at(file, place, why))?;
     let document = gltf::Document::from_json(root).map_err(|e| match e {
         gltf::Error::Validation(found) => match found.first() {
-            Some((path, why)) => Failure::at(file, path, why),
+            // A path may end with a text of the file.
+            Some((path, why)) => Failure::at(file, shorten(path), why),
             None => Failure::in_file(file, "invalid glTF"),
         },
         other => Failure::in_file(file, other),
@@ -438,6 +439,7 @@ fn triangle_edges(mode: Mode, indices: &[u32], mut edge: impl FnMut(u32, u32)) {
 
 #[cfg(test)]
 mod tests {
+    use super::super::damaged::check_message;
     use super::*;
 
     /// A GLB file with every kind of primitive and accessor that is read.
@@ -458,6 +460,21 @@ mod tests {
             glb.extend(chunk);
         }
         glb
+    }
+
+    /// Found by fuzzing: the name of a missing file stood whole in the message.
+    #[test]
+    fn a_long_text_of_the_file_is_shortened_in_the_message() {
+        let long = "x1/-".repeat(300);
+        let buffer = format!("\"buffers\": [{{\"byteLength\": 1, \"uri\": \"{long}\"}}]");
+        let name = format!("{long}.bin");
+        let extension = format!("\"extensionsRequired\": [\"{name}\"]");
+        for rest in [buffer, extension] {
+            let text = format!("{{\"asset\": {{\"version\": \"2.0\"}}, {rest}}}");
+            let bytes = text.as_bytes();
+            let failure = read_from(Path::new("a.gltf"), bytes, Some(bytes.len() as u64), None);
+            check_message(&failure.unwrap_err(), "a.gltf");
+        }
     }
 
     #[test]

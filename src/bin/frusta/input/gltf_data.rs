@@ -4,7 +4,7 @@
 //! sparse part lies; these return an error that names the accessor. Nothing is
 //! allocated that the file does not back with bytes.
 
-use crate::failure::Failure;
+use crate::failure::{Failure, shorten};
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
 use frusta::Vec3;
@@ -126,7 +126,8 @@ fn load_uri(file: &Path, uri: &str, most: u64) -> Result<Vec<u8>, String> {
         .decode_utf8()
         .map_err(|_| "its uri is not UTF-8".to_owned())?;
     let path = file.parent().unwrap_or(Path::new("")).join(name.as_ref());
-    let fail = |why: &dyn Display| format!("{}: {why}", path.display());
+    // The name is the file's own words, of any length.
+    let fail = |why: &dyn Display| shorten(format_args!("{}: {why}", path.display()));
     // A device or a named pipe might never end, or never begin.
     let data = path.metadata().map_err(|e| fail(&e))?;
     if !data.is_file() {
