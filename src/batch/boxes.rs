@@ -6,12 +6,13 @@
 //! alone: for a face it is chosen once which of the six arrays to read.
 //! ```text
 //! for each block of 512 boxes:
-//!     near and far, which have one normal    its products with both corners
-//!     left and right; bottom and top         greatest values, least ones if asked for
-//!     of all faces the least: outside if the least of the greatest is negative, inside
-//!     if no least one is
+//!     whether they are boxes, and the largest number    of a BoxSet known before
+//!     near and far, which have one normal; left         greatest values, least ones if
+//!     right, bottom, top                                asked for; of all the least:
+//!     outside if the least of the greatest is negative, inside if no least one is
 //! ```
-//! No branch depends on a box. What the threshold does not settle is told by bits.
+//! A pass has as many faces as registers hold numbers of. No branch depends on a box. What
+//! the threshold does not settle is told by bits.
 //!
 //! # The error bound
 //! In units of u, S >= |p_x| + |p_y| + |p_z| of a corner, |n_j| < 1: a number 1, the
@@ -29,12 +30,15 @@
 //! two sides): more operations than corners have, and a turned box reaches farther in
 //! the frame than it does, which would be more boxes to look at again.
 
-use super::words::{BLOCK, Lot, WORD, Word, Words};
+use super::box_set::{BoxBlocks, BoxSet};
+use super::words::{BLOCK, Block, Lot, WORD, Word, Words, blocks};
 use crate::math::{Real, Vec3};
 use crate::volume::{Aabb, Row, Rows, Volume};
 use fearless_simd::prelude::*;
+#[cfg(feature = "parallel")]
+use std::ops::Range;
 
-/// Boxes in six arrays, or in one.
+/// Boxes in six arrays, in one, or in a [`BoxSet`].
 ///
 /// ```
 /// use frusta::batch::{BoxArrays, Boxes};
@@ -48,10 +52,12 @@ use fearless_simd::prelude::*;
 /// ```
 #[derive(Clone, Copy, Debug)]
 pub enum Boxes<'a, T> {
-    /// Structure of arrays: fastest.
+    /// Structure of arrays: faster than structures.
     Arrays(BoxArrays<'a, T>),
     /// Array of structures.
     Slice(&'a [Aabb<T>]),
+    /// Boxes that are kept: faster than arrays.
+    Set(BoxBlocks<'a, T>),
 }
 
 /// Boxes as six arrays of one length; of longer ones only the beginning counts.
@@ -81,6 +87,12 @@ impl<'a, T> From<&'a Vec<Aabb<T>>> for Boxes<'a, T> {
     }
 }
 
+impl<'a, T> From<&'a BoxSet<T>> for Boxes<'a, T> {
+    fn from(set: &'a BoxSet<T>) -> Self {
+        Boxes::Set(set.into())
+    }
+}
+
 impl<T: Real> Boxes<'_, T> {
     /// How many there are.
     #[must_use]
@@ -91,6 +103,20 @@ impl<T: Real> Boxes<'_, T> {
                 all.min().unwrap_or(0)
             }
             Boxes::Slice(boxes) => boxes.len(),
+            Boxes::Set(set) => set.len(),
+        }
+    }
+
+    /// Some of them, of as many as there are.
+    #[cfg(feature = "parallel")]
+    pub(super) fn part(&self, range: Range<usize>) -> Self {
+        match *self {
+            Boxes::Arrays(BoxArrays { min, max }) => Boxes::Arrays(BoxArrays {
+                min: min.map(|array| &array[range.clone()]),
+                max: max.map(|array| &array[range.clone()]),
+            }),
+            Boxes::Slice(boxes) => Boxes::Slice(&boxes[range]),
+            Boxes::Set(set) => Boxes::Set(set.part(range)),
         }
     }
 
@@ -113,6 +139,7 @@ impl<T: Real> Boxes<'_, T> {
                 max: of(max)?,
             }),
             Boxes::Slice(boxes) => boxes.get(index).copied(),
+            Boxes::Set(set) => set.get(index),
         }
     }
 }
@@ -127,12 +154,17 @@ impl<T: Real> Lot<T, 6> for Boxes<'_, T> {
     }
 
     #[inline(always)]
-    fn arrays(&self) -> Option<[&[T]; 6]> {
+    fn block(&self, start: usize) -> Option<Block<'_, T, 6>> {
         match self {
             Boxes::Arrays(BoxArrays { min, max }) => {
-                Some([min[0], min[1], min[2], max[0], max[1], max[2]])
+                let arrays = [min[0], min[1], min[2], max[0], max[1], max[2]];
+                Some((blocks(arrays, start)?, None))
             }
             Boxes::Slice(_) => None,
+            Boxes::Set(set) => {
+                let (block, largest) = set.block(start)?;
+                Some((block.each_ref(), Some(largest)))
+            }
         }
     }
 
@@ -146,30 +178,90 @@ impl<T: Real> Lot<T, 6> for Boxes<'_, T> {
     fn words<S, V, const N: usize, const INSIDE: bool>(
         simd: S,
         rows: &Rows<T>,
-        block: [&[T; BLOCK]; 6],
+        (block, largest): Block<'_, T, 6>,
     ) -> Words
     where
         S: Simd,
         V: SimdFloat<S, Element = T, Array = [T; N]>,
     {
-        let mut values = Extremes::<T, INSIDE>::new();
-        let threshold = values.ends::<S, V, N>(simd, rows, &block);
-        values.sides::<S, V, N>(simd, &rows.sides[..2], &block);
-        values.sides::<S, V, N>(simd, &rows.sides[2..], &block);
-        values.words::<S, V, N>(simd, threshold)
+        let (largest, is_valid) = match largest {
+            Some(largest) => (largest, true),
+            None => check::<S, V, T, N>(simd, &block),
+        };
+        let threshold = rows.threshold(largest + largest + largest, is_valid);
+        let mut greatest = [T::ZERO; BLOCK];
+        let mut least = [T::ZERO; BLOCK];
+        first::<S, V, T, N, INSIDE>(simd, rows, &block, &mut greatest, &mut least);
+        let [_, sides @ ..] = &rows.sides;
+        let of = |which: usize| sides.each_ref().map(|row| corners(row, &block)[which]);
+        let [outside, within] = rest::<S, V, T, N>(simd, sides, of(0), &greatest, threshold);
+        if !INSIDE {
+            return words::<N>(
+                #[inline(always)]
+                |k| [outside[k], 0, outside[k] | within[k]],
+            );
+        }
+        let [crossed, inside] = rest::<S, V, T, N>(simd, sides, of(1), &least, threshold);
+        words::<N>(|k| {
+            let inside = within[k] & inside[k];
+            [
+                outside[k],
+                inside,
+                outside[k] | inside | within[k] & crossed[k],
+            ]
+        })
     }
 }
 
-/// Of each box in a block the least over the faces of their greatest, and of their least
-/// values.
-struct Extremes<T, const INSIDE: bool> {
-    greatest: [T; BLOCK],
-    least: [T; BLOCK],
+/// A group's numbers.
+#[inline(always)]
+fn load<S, V, T, const N: usize>(simd: S, array: &[T; BLOCK], group: usize) -> V
+where
+    S: Simd,
+    V: SimdFloat<S, Element = T>,
+{
+    V::from_slice(simd, &array[group * N..][..N])
 }
 
-/// Which arrays have the corner farthest along a normal, and which the opposite one.
+/// The largest magnitude in a block, and whether all are boxes.
 #[inline(always)]
-fn corners<'a, T>(row: &Row<T>, block: &[&'a [T; BLOCK]; 6]) -> [[&'a [T; BLOCK]; 3]; 2] {
+fn check<S, V, T, const N: usize>(simd: S, block: &[&[T; BLOCK]; 6]) -> (T, bool)
+where
+    S: Simd,
+    T: Real,
+    V: SimdFloat<S, Element = T, Array = [T; N]>,
+{
+    let zero = V::splat(simd, T::ZERO);
+    let (mut most, mut least) = (zero, zero);
+    let mut valid = zero.simd_eq(zero);
+    for group in 0..BLOCK / N {
+        let low = [
+            load::<S, V, T, N>(simd, block[0], group),
+            load::<S, V, T, N>(simd, block[1], group),
+            load::<S, V, T, N>(simd, block[2], group),
+        ];
+        let high = [
+            load::<S, V, T, N>(simd, block[3], group),
+            load::<S, V, T, N>(simd, block[4], group),
+            load::<S, V, T, N>(simd, block[5], group),
+        ];
+        valid &= low[0].simd_le(high[0]) & low[1].simd_le(high[1]) & low[2].simd_le(high[2]);
+        least = least.min(low[0].min(low[1]).min(low[2]));
+        most = most.max(high[0].max(high[1]).max(high[2]));
+    }
+    let most = most.max(-least).to_array();
+    let largest = most
+        .into_iter()
+        .fold(T::ZERO, |a, b| if b > a { b } else { a });
+    (largest, valid.to_bitmask() == u64::MAX >> (64 - N))
+}
+
+/// The arrays that have a corner's coordinates.
+type Corner<'a, T> = [&'a [T; BLOCK]; 3];
+
+/// Of the corner farthest along a normal, and of the opposite one.
+#[inline(always)]
+fn corners<'a, T>(row: &Row<T>, block: &[&'a [T; BLOCK]; 6]) -> [Corner<'a, T>; 2] {
     let pick = |up: bool, axis: usize| block[axis + if up { 3 } else { 0 }];
     let [a, b, c] = row.up;
     [
@@ -178,135 +270,124 @@ fn corners<'a, T>(row: &Row<T>, block: &[&'a [T; BLOCK]; 6]) -> [[&'a [T; BLOCK]
     ]
 }
 
-/// `n . p + d` for the points of a group.
-#[inline(always)]
-fn value<S, V, T, const N: usize>(
-    n: &[V; 3],
-    d: V,
-    simd: S,
-    p: &[&[T; BLOCK]; 3],
-    group: usize,
-) -> V
-where
-    S: Simd,
-    V: SimdFloat<S, Element = T>,
-{
-    let at = |axis: usize| V::from_slice(simd, &p[axis][group * N..][..N]);
-    at(0).mul_add(n[0], at(1).mul_add(n[1], at(2).mul_add(n[2], d)))
+/// A face's numbers in each lane.
+#[derive(Clone, Copy)]
+struct Plane<V> {
+    normal: [V; 3],
+    offset: V,
 }
 
-impl<T: Real, const INSIDE: bool> Extremes<T, INSIDE> {
+impl<V: Copy> Plane<V> {
     #[inline(always)]
-    fn new() -> Self {
+    fn new<S: Simd, T: Real>(simd: S, row: &Row<T>) -> Self
+    where
+        V: SimdFloat<S, Element = T>,
+    {
+        let all = |v: T| V::splat(simd, v);
+        let [x, y, z] = row.normal;
         Self {
-            greatest: [T::ZERO; BLOCK],
-            least: [T::ZERO; BLOCK],
+            normal: [all(x), all(y), all(z)],
+            offset: all(row.offset),
         }
     }
 
-    /// Near and far, and the block's threshold: infinite if one of it is no box.
+    /// `n . p + d` for the corners of a group.
     #[inline(always)]
-    fn ends<S, V, const N: usize>(&mut self, simd: S, rows: &Rows<T>, block: &[&[T; BLOCK]; 6]) -> T
+    fn value<S, T, const N: usize>(&self, simd: S, p: &Corner<'_, T>, group: usize, d: V) -> V
     where
         S: Simd,
-        V: SimdFloat<S, Element = T, Array = [T; N]>,
+        V: SimdFloat<S, Element = T>,
     {
-        let all = |v: T| V::splat(simd, v);
-        let row = &rows.near;
-        let n = [all(row.normal[0]), all(row.normal[1]), all(row.normal[2])];
-        let [farthest, opposite] = corners(row, block);
+        let [x, y, z] = self.normal;
+        let a = load::<S, V, T, N>(simd, p[0], group);
+        let b = load::<S, V, T, N>(simd, p[1], group);
+        let c = load::<S, V, T, N>(simd, p[2], group);
+        a.mul_add(x, b.mul_add(y, c.mul_add(z, d)))
+    }
+}
+
+/// Of each box the least over near, far and left of their greatest, and of their least
+/// values.
+#[inline(always)]
+fn first<S, V, T, const N: usize, const INSIDE: bool>(
+    simd: S,
+    rows: &Rows<T>,
+    block: &[&[T; BLOCK]; 6],
+    to_greatest: &mut [T; BLOCK],
+    to_least: &mut [T; BLOCK],
+) where
+    S: Simd,
+    T: Real,
+    V: SimdFloat<S, Element = T, Array = [T; N]>,
+{
+    let (near, left) = (
+        Plane::<V>::new(simd, &rows.near),
+        Plane::<V>::new(simd, &rows.sides[0]),
+    );
+    let (far, zero) = (V::splat(simd, rows.far), V::splat(simd, T::ZERO));
+    let [farthest, opposite] = corners(&rows.near, block);
+    let [left_farthest, left_opposite] = corners(&rows.sides[0], block);
+    for group in 0..BLOCK / N {
+        let to = group * N..group * N + N;
+        let along = near.value::<S, T, N>(simd, &farthest, group, zero);
+        let against = near.value::<S, T, N>(simd, &opposite, group, zero);
+        let side = left.value::<S, T, N>(simd, &left_farthest, group, left.offset);
         // The far face's value is the sum of both offsets less the near one's.
-        let (near, far, zero) = (all(row.offset), all(rows.far), all(T::ZERO));
-        let (mut most, mut least) = (zero, zero);
-        let mut valid = zero.simd_eq(zero);
-        for group in 0..BLOCK / N {
-            let at = |k: usize| V::from_slice(simd, &block[k][group * N..][..N]);
-            let low = [at(0), at(1), at(2)];
-            let high = [at(3), at(4), at(5)];
-            valid &= low[0].simd_le(high[0]) & low[1].simd_le(high[1]) & low[2].simd_le(high[2]);
-            least = least.min(low[0].min(low[1]).min(low[2]));
-            most = most.max(high[0].max(high[1]).max(high[2]));
-            let along = value::<S, V, T, N>(&n, zero, simd, &farthest, group);
-            let against = value::<S, V, T, N>(&n, zero, simd, &opposite, group);
-            let at = group * N..group * N + N;
-            let greatest = (along + near).min(far - against);
-            greatest.store_slice(&mut self.greatest[at.clone()]);
-            if INSIDE {
-                (against + near)
-                    .min(far - along)
-                    .store_slice(&mut self.least[at]);
-            }
+        let greatest = (along + near.offset).min(far - against);
+        greatest.min(side).store_slice(&mut to_greatest[to.clone()]);
+        if INSIDE {
+            let side = left.value::<S, T, N>(simd, &left_opposite, group, left.offset);
+            let least = (against + near.offset).min(far - along);
+            least.min(side).store_slice(&mut to_least[to]);
         }
-        let most = most.max(-least).to_array();
-        let largest = most
-            .into_iter()
-            .fold(T::ZERO, |a, b| if b > a { b } else { a });
-        let size = largest + largest + largest;
-        let is_valid = valid.to_bitmask() == u64::MAX >> (64 - N);
-        rows.threshold(size, is_valid)
     }
+}
 
-    /// Two more faces.
-    #[inline(always)]
-    fn sides<S, V, const N: usize>(&mut self, simd: S, rows: &[Row<T>], block: &[&[T; BLOCK]; 6])
-    where
-        S: Simd,
-        V: SimdFloat<S, Element = T, Array = [T; N]>,
-    {
-        let [first, second] = rows else { return };
-        let all = |v: T| V::splat(simd, v);
-        let splat = |n: &[T; 3]| [all(n[0]), all(n[1]), all(n[2])];
-        let (a, a_offset) = (splat(&first.normal), all(first.offset));
-        let (b, b_offset) = (splat(&second.normal), all(second.offset));
-        let [a_farthest, a_opposite] = corners(first, block);
-        let [b_farthest, b_opposite] = corners(second, block);
-        for group in 0..BLOCK / N {
-            let at = group * N..group * N + N;
-            let a_value = value::<S, V, T, N>(&a, a_offset, simd, &a_farthest, group);
-            let b_value = value::<S, V, T, N>(&b, b_offset, simd, &b_farthest, group);
-            let so_far = V::from_slice(simd, &self.greatest[at.clone()]);
-            let greatest = so_far.min(a_value.min(b_value));
-            greatest.store_slice(&mut self.greatest[at.clone()]);
-            if INSIDE {
-                let a_value = value::<S, V, T, N>(&a, a_offset, simd, &a_opposite, group);
-                let b_value = value::<S, V, T, N>(&b, b_offset, simd, &b_opposite, group);
-                let so_far = V::from_slice(simd, &self.least[at.clone()]);
-                so_far
-                    .min(a_value.min(b_value))
-                    .store_slice(&mut self.least[at]);
-            }
-        }
+/// With the values at corners of three more faces: a byte a group, in which the least is
+/// certainly negative, and certainly positive.
+#[inline(always)]
+fn rest<S, V, T, const N: usize>(
+    simd: S,
+    rows: &[Row<T>; 3],
+    corners: [Corner<'_, T>; 3],
+    so_far: &[T; BLOCK],
+    threshold: T,
+) -> [[u8; BLOCK / 4]; 2]
+where
+    S: Simd,
+    T: Real,
+    V: SimdFloat<S, Element = T, Array = [T; N]>,
+{
+    let [a, b, c] = rows;
+    let [a, b, c] = [
+        Plane::<V>::new(simd, a),
+        Plane::<V>::new(simd, b),
+        Plane::<V>::new(simd, c),
+    ];
+    let threshold = V::splat(simd, threshold);
+    let mut bytes = [[0; BLOCK / 4]; 2];
+    let [negative, positive] = &mut bytes;
+    for group in 0..BLOCK / N {
+        let least = load::<S, V, T, N>(simd, so_far, group)
+            .min(a.value::<S, T, N>(simd, &corners[0], group, a.offset))
+            .min(b.value::<S, T, N>(simd, &corners[1], group, b.offset))
+            .min(c.value::<S, T, N>(simd, &corners[2], group, c.offset));
+        negative[group] = least.simd_lt(-threshold).to_bitmask() as u8;
+        positive[group] = least.simd_gt(threshold).to_bitmask() as u8;
     }
+    bytes
+}
 
-    /// What that proves.
-    #[inline(always)]
-    fn words<S, V, const N: usize>(&self, simd: S, threshold: T) -> Words
-    where
-        S: Simd,
-        V: SimdFloat<S, Element = T, Array = [T; N]>,
-    {
-        let mut words = [Word::default(); BLOCK / WORD];
-        for (k, word) in words.iter_mut().enumerate() {
-            for group in 0..WORD / N {
-                let at = k * WORD + group * N;
-                let greatest = V::from_slice(simd, &self.greatest[at..at + N]);
-                let outside = greatest.simd_lt(-threshold);
-                let within = greatest.simd_gt(threshold);
-                let bits = if INSIDE {
-                    let least = V::from_slice(simd, &self.least[at..at + N]);
-                    let inside = within & least.simd_gt(threshold);
-                    let settled = outside | inside | within & least.simd_lt(-threshold);
-                    [
-                        outside.to_bitmask(),
-                        inside.to_bitmask(),
-                        settled.to_bitmask(),
-                    ]
-                } else {
-                    [outside.to_bitmask(), 0, (outside | within).to_bitmask()]
-                };
-                word.set::<N>(group * N, bits);
-            }
+/// Words from what groups of N say: outside, inside, settled.
+#[inline(always)]
+fn words<const N: usize>(of: impl Fn(usize) -> [u8; 3]) -> Words {
+    let mut words = [Word::default(); BLOCK / WORD];
+    for (k, word) in words.iter_mut().enumerate() {
+        for group in 0..WORD / N {
+            let [outside, inside, settled] = of(k * (WORD / N) + group);
+            let bits = [outside.into(), inside.into(), settled.into()];
+            word.set::<N>(group * N, bits);
         }
-        words
     }
+    words
 }

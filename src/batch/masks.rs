@@ -1,5 +1,6 @@
 //! What a batch says: bits, classes, or the numbers of what may be seen.
 
+use super::places::PLACES;
 use super::words::{Sink, WORD, Word};
 use crate::volume::Containment;
 
@@ -91,20 +92,46 @@ fn bits(mut word: u64) -> impl Iterator<Item = usize> {
     })
 }
 
-impl Sink for ContainmentMasks {
-    const INSIDE: bool = true;
-
-    #[inline(always)]
-    fn take(&mut self, count: usize, word: Word) {
-        self.len += count;
-        self.outside.push(word.outside);
-        self.inside.push(word.inside);
+impl ContainmentMasks {
+    /// Room for answers about so many volumes, each to be written.
+    pub(super) fn prepare(&mut self, len: usize) -> MaskWords<'_> {
+        let words = len.div_ceil(WORD);
+        self.len = len;
+        self.outside.resize(words, 0);
+        self.inside.resize(words, 0);
+        MaskWords {
+            outside: &mut self.outside,
+            inside: &mut self.inside,
+        }
     }
 
-    fn clear(&mut self) {
+    /// Forgets all.
+    pub(super) fn clear(&mut self) {
         self.len = 0;
         self.outside.clear();
         self.inside.clear();
+    }
+}
+
+/// Words that are still to be written.
+pub(super) struct MaskWords<'a> {
+    pub(super) outside: &'a mut [u64],
+    pub(super) inside: &'a mut [u64],
+}
+
+impl Sink for MaskWords<'_> {
+    const INSIDE: bool = true;
+
+    #[inline(always)]
+    fn take(&mut self, _count: usize, word: Word) {
+        for (words, bits) in [
+            (&mut self.outside, word.outside),
+            (&mut self.inside, word.inside),
+        ] {
+            if let Some(first) = words.split_off_first_mut() {
+                *first = bits;
+            }
+        }
     }
 }
 
@@ -124,7 +151,10 @@ const CLASSES: [[Containment; 4]; 256] = {
     all
 };
 
-impl Sink for Vec<Containment> {
+/// Classes that are still to be written.
+pub(super) struct Classes<'a>(pub(super) &'a mut [Containment]);
+
+impl Sink for Classes<'_> {
     const INSIDE: bool = true;
 
     #[inline(always)]
@@ -134,11 +164,9 @@ impl Sink for Vec<Containment> {
             let nibble = |word: u64| (word >> (4 * i) & 15) as usize;
             *four = CLASSES[nibble(word.outside) | nibble(word.inside) << 4];
         }
-        self.extend_from_slice(&classes.as_flattened()[..count]);
-    }
-
-    fn clear(&mut self) {
-        self.clear();
+        if let Some(slots) = self.0.split_off_mut(..count) {
+            slots.copy_from_slice(&classes.as_flattened()[..count]);
+        }
     }
 }
 
@@ -152,16 +180,24 @@ pub(super) struct Numbers<'a> {
 impl Sink for Numbers<'_> {
     const INSIDE: bool = false;
 
+    /// A byte of bits at a time, without branches: what may be seen cannot be predicted.
     #[inline(always)]
     fn take(&mut self, count: usize, word: Word) {
-        let next = self.next;
         let visible = visible(count, word.outside);
-        self.list.extend(bits(visible).map(|bit| next + bit as u32));
+        if visible != 0 {
+            let mut numbers = [0; WORD + 8];
+            let mut len = 0;
+            for (k, byte) in visible.to_le_bytes().into_iter().enumerate() {
+                let next = self.next + 8 * k as u32;
+                if let Some(slots) = numbers[len..].first_chunk_mut::<8>() {
+                    for (slot, place) in slots.iter_mut().zip(PLACES[usize::from(byte)]) {
+                        *slot = next + u32::from(place);
+                    }
+                }
+                len += byte.count_ones() as usize;
+            }
+            self.list.extend_from_slice(&numbers[..len.min(WORD)]);
+        }
         self.next += count as u32;
-    }
-
-    fn clear(&mut self) {
-        self.list.clear();
-        self.next = 0;
     }
 }

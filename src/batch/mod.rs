@@ -1,6 +1,7 @@
-//! Many volumes at once: boxes and spheres in vector registers.
+//! Many at once: boxes, spheres and segments in vector registers.
 //!
-//! Answers are those of [`Culler::classify`], for every input, which they are certain of
+//! Answers are those of [`Culler::classify`] and of
+//! [`Frustum::clip_segment`](crate::Frustum::clip_segment), for every input, which they are certain of
 //! in the batch's own type or get from it. They go to the caller's
 //! buffers, which are used again: nothing is allocated once they are large enough, but
 //! where big integers are needed.
@@ -8,27 +9,38 @@
 //! ```text
 //! relative boxes in f64, asked about in f32 relative to a place near them
 //! boxes    axis-aligned boxes
+//! box_set  boxes that are kept: found to be boxes once, and asked about in half of the time
 //! spheres  balls
+//! segments class and parameters
 //! words    512 volumes at a time; what is not certain one by one
 //! masks    bits, classes, lists of numbers
 //! ```
 
+mod box_set;
 mod boxes;
 mod masks;
+#[cfg(feature = "parallel")]
+mod parallel;
+mod places;
 mod relative;
+mod segments;
 mod spheres;
 mod words;
 
+pub use box_set::{BoxBlocks, BoxSet};
 pub use boxes::{BoxArrays, Boxes};
 pub use masks::ContainmentMasks;
 pub use relative::{RelativeBoxes, RelativeError};
+pub use segments::{SegmentArrays, SegmentIntervals, Segments};
 pub use spheres::{SphereArrays, Spheres};
 
-use crate::math::{PerReal, Real};
-use crate::volume::{Containment, Culler, Rows, VolumeCounts, VolumeErrorAt};
+use crate::math::{NonFiniteAt, PerReal, Real};
+use crate::volume::{Containment, Culler, VolumeCounts, VolumeErrorAt};
 use fearless_simd::Level;
-use masks::Numbers;
+use masks::{Classes, Numbers};
 use std::marker::PhantomData;
+#[cfg(feature = "parallel")]
+use std::ops::Range;
 use words::{Drive, Sink};
 
 impl Culler {
@@ -41,7 +53,7 @@ impl Culler {
         boxes: impl Into<Boxes<'a, T>>,
         masks: &mut ContainmentMasks,
     ) -> Result<(), VolumeErrorAt> {
-        self.drive_boxes(boxes.into(), masks, &mut VolumeCounts::default())
+        self.masks(&boxes.into(), masks)
     }
 
     /// The same as a class for each box.
@@ -53,7 +65,7 @@ impl Culler {
         boxes: impl Into<Boxes<'a, T>>,
         classes: &mut Vec<Containment>,
     ) -> Result<(), VolumeErrorAt> {
-        self.drive_boxes(boxes.into(), classes, &mut VolumeCounts::default())
+        self.classes(&boxes.into(), classes, &mut VolumeCounts::default())
     }
 
     /// As [`Culler::classify_boxes`], and adds what it needed to counts.
@@ -66,7 +78,7 @@ impl Culler {
         classes: &mut Vec<Containment>,
         counts: &mut VolumeCounts,
     ) -> Result<(), VolumeErrorAt> {
-        self.drive_boxes(boxes.into(), classes, counts)
+        self.classes(&boxes.into(), classes, counts)
     }
 
     /// The numbers of the boxes that are not outside, in order: a draw list. A third
@@ -81,11 +93,7 @@ impl Culler {
         boxes: impl Into<Boxes<'a, T>>,
         numbers: &mut Vec<u32>,
     ) -> Result<(), VolumeErrorAt> {
-        let list = &mut Numbers {
-            list: numbers,
-            next: 0,
-        };
-        self.drive_boxes(boxes.into(), list, &mut VolumeCounts::default())
+        self.numbers(&boxes.into(), numbers)
     }
 
     /// How each of many balls lies to the frustum, as bits: see [`Culler::classify`].
@@ -97,7 +105,7 @@ impl Culler {
         spheres: impl Into<Spheres<'a, T>>,
         masks: &mut ContainmentMasks,
     ) -> Result<(), VolumeErrorAt> {
-        self.drive_spheres(spheres.into(), masks, &mut VolumeCounts::default())
+        self.masks(&spheres.into(), masks)
     }
 
     /// The same as a class for each ball.
@@ -109,7 +117,7 @@ impl Culler {
         spheres: impl Into<Spheres<'a, T>>,
         classes: &mut Vec<Containment>,
     ) -> Result<(), VolumeErrorAt> {
-        self.drive_spheres(spheres.into(), classes, &mut VolumeCounts::default())
+        self.classes(&spheres.into(), classes, &mut VolumeCounts::default())
     }
 
     /// The numbers of the balls that are not outside, in order.
@@ -123,11 +131,7 @@ impl Culler {
         spheres: impl Into<Spheres<'a, T>>,
         numbers: &mut Vec<u32>,
     ) -> Result<(), VolumeErrorAt> {
-        let list = &mut Numbers {
-            list: numbers,
-            next: 0,
-        };
-        self.drive_spheres(spheres.into(), list, &mut VolumeCounts::default())
+        self.numbers(&spheres.into(), numbers)
     }
 }
 
@@ -135,11 +139,9 @@ impl Culler {
     /// The numbers of the boxes that are not outside, in order: exactly those of the boxes in
     /// `f64`, in the time of `f32`.
     pub fn visible_relative(&self, boxes: &RelativeBoxes, numbers: &mut Vec<u32>) {
-        let list = &mut Numbers {
-            list: numbers,
-            next: 0,
-        };
-        self.drive_relative(boxes, list, &mut VolumeCounts::default());
+        // They were found to be boxes when they were converted.
+        let done = self.numbers(&boxes.seen_by(self).lot(), numbers);
+        debug_assert!(done.is_ok());
     }
 
     /// A class for each box: exactly those of [`Culler::classify`] of the boxes in `f64`, and
@@ -150,46 +152,180 @@ impl Culler {
         classes: &mut Vec<Containment>,
         counts: &mut VolumeCounts,
     ) {
-        self.drive_relative(boxes, classes, counts);
+        let done = self.classes(&boxes.seen_by(self).lot(), classes, counts);
+        debug_assert!(done.is_ok());
     }
 
-    fn drive_relative(
+    fn masks(&self, lot: &impl Ask, masks: &mut ContainmentMasks) -> Result<(), VolumeErrorAt> {
+        let words = &mut masks.prepare(lot.count());
+        let done = lot.ask(self, words, &mut VolumeCounts::default());
+        if done.is_err() {
+            masks.clear();
+        }
+        done
+    }
+
+    fn classes(
         &self,
-        boxes: &RelativeBoxes,
-        out: &mut impl Sink,
+        lot: &impl Ask,
+        classes: &mut Vec<Containment>,
         counts: &mut VolumeCounts,
-    ) {
-        let drive = Drive {
-            culler: self,
-            rows: &Rows::relative_to(self.half_spaces(), boxes.anchor()),
-            lot: boxes,
-            counts,
+    ) -> Result<(), VolumeErrorAt> {
+        classes.resize(lot.count(), Containment::Outside);
+        let done = lot.ask(self, &mut Classes(classes), counts);
+        if done.is_err() {
+            classes.clear();
+        }
+        done
+    }
+
+    fn numbers(&self, lot: &impl Ask, numbers: &mut Vec<u32>) -> Result<(), VolumeErrorAt> {
+        numbers.clear();
+        let mut list = Numbers {
+            list: numbers,
+            next: 0,
         };
-        // They were found to be boxes when they were converted.
-        let done = words::singles(Level::new(), drive, out);
-        debug_assert!(done.is_ok());
+        let done = lot.ask(self, &mut list, &mut VolumeCounts::default());
+        if done.is_err() {
+            numbers.clear();
+        }
+        done
     }
 }
 
-/// Asks about volumes of one kind: a method, and a kernel for each scalar type, which is
-/// compiled here and not in every crate that asks.
-macro_rules! drives {
-    ($drive:ident, $lot:ident, $kernel:ident, $kernels:ident, $singles:ident, $doubles:ident) => {
-        impl Culler {
-            fn $drive<T: Real, Out: Sink>(
+/// Volumes of one kind, with what asks about them.
+trait Ask: Sized + Sync {
+    /// How many there are.
+    fn count(&self) -> usize;
+
+    /// Some of them.
+    #[cfg(feature = "parallel")]
+    fn part(&self, range: Range<usize>) -> Self;
+
+    /// Asks about all.
+    fn ask<Out: Sink>(
+        &self,
+        culler: &Culler,
+        out: &mut Out,
+        counts: &mut VolumeCounts,
+    ) -> Result<(), VolumeErrorAt>;
+}
+
+impl Culler {
+    /// How each of many segments lies to the frustum, and the parameters between which it is
+    /// in it: to the bit those of [`Frustum::clip_segment`](crate::Frustum::clip_segment).
+    ///
+    /// Singles are eight a register, and take a third or less of the time of
+    /// [`Frustum::clip_segments`](crate::Frustum::clip_segments), which gives points and
+    /// faces, too.
+    ///
+    /// ```
+    /// use frusta::batch::{SegmentArrays, SegmentIntervals};
+    /// use frusta::{Class, Culler, EndRect, Frustum, Pose, Shape};
+    /// # let near = EndRect::new(1.0, -1.0, 1.0, -1.0, 1.0);
+    /// # let far = EndRect::new(3.0, -3.0, 3.0, -3.0, 3.0);
+    /// # let frustum = Frustum::new(Pose::IDENTITY, Shape::Finite { near, far })?;
+    /// let (zero, depth) = ([0.0_f32; 3], [2.0, 2.0, 4.0]);
+    /// let x = [1.0, 4.0, 5.0];
+    /// let segments = SegmentArrays { start: [&zero, &zero, &depth], end: [&x, &zero, &depth] };
+    /// let mut intervals = SegmentIntervals::default();
+    /// Culler::new(&frustum).clip_intervals(segments, &mut intervals)?;
+    /// assert_eq!(intervals.classes(), [Class::Inside, Class::Cross, Class::Outside]);
+    /// assert_eq!(intervals.get(1), Some((Class::Cross, 0.0, 0.5)));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// The first segment with a coordinate that is infinite or NaN; `intervals` is empty
+    /// then.
+    pub fn clip_intervals<'a, T: Real>(
+        &self,
+        segments: impl Into<Segments<'a, T>>,
+        intervals: &mut SegmentIntervals<T>,
+    ) -> Result<(), NonFiniteAt> {
+        self.intervals_at(Level::new(), &segments.into(), intervals)
+    }
+
+    fn intervals_at<T: Real>(
+        &self,
+        level: Level,
+        segments: &Segments<'_, T>,
+        intervals: &mut SegmentIntervals<T>,
+    ) -> Result<(), NonFiniteAt> {
+        let done = self.intervals_into(level, segments, intervals.prepare(segments.len()));
+        if done.is_err() {
+            intervals.clear();
+        }
+        done
+    }
+
+    fn intervals_into<T: Real>(
+        &self,
+        level: Level,
+        segments: &Segments<'_, T>,
+        out: segments::Out<'_, T>,
+    ) -> Result<(), NonFiniteAt> {
+        let Some((kernel, rows)) = T::pick(&IntervalKernels).zip(T::pick(self.rows())) else {
+            return Ok(());
+        };
+        let asked = segments::Asked {
+            frustum: self.frustum(),
+            rows,
+            doubles: self.rows().double(),
+        };
+        kernel(level, asked, segments, out)
+    }
+}
+
+type IntervalKernel<T> = fn(
+    Level,
+    segments::Asked<'_, T>,
+    &Segments<'_, T>,
+    segments::Out<'_, T>,
+) -> Result<(), NonFiniteAt>;
+
+struct IntervalKernels;
+
+impl PerReal for IntervalKernels {
+    type Of<T: Real> = IntervalKernel<T>;
+
+    fn single(&self) -> &IntervalKernel<f32> {
+        &(segments::singles as _)
+    }
+
+    fn double(&self) -> &IntervalKernel<f64> {
+        &(segments::doubles as _)
+    }
+}
+
+/// Asks about volumes of one kind: a kernel for each scalar type, which is compiled here
+/// and not in every crate that asks.
+macro_rules! asks {
+    ($lot:ident, $kernel:ident, $kernels:ident, $singles:ident, $doubles:ident) => {
+        impl<T: Real> Ask for $lot<'_, T> {
+            fn count(&self) -> usize {
+                self.len()
+            }
+
+            #[cfg(feature = "parallel")]
+            fn part(&self, range: Range<usize>) -> Self {
+                self.part(range)
+            }
+
+            fn ask<Out: Sink>(
                 &self,
-                lot: $lot<'_, T>,
+                culler: &Culler,
                 out: &mut Out,
                 counts: &mut VolumeCounts,
             ) -> Result<(), VolumeErrorAt> {
                 let kernels = $kernels(PhantomData::<Out>);
-                let Some((kernel, rows)) = T::pick(&kernels).zip(T::pick(self.rows())) else {
+                let Some((kernel, rows)) = T::pick(&kernels).zip(T::pick(culler.rows())) else {
                     return Ok(());
                 };
                 let drive = Drive {
-                    culler: self,
+                    culler,
                     rows,
-                    lot: &lot,
+                    lot: self,
                     counts,
                 };
                 kernel(Level::new(), drive, out)
@@ -231,22 +367,40 @@ macro_rules! drives {
     };
 }
 
-drives!(
-    drive_boxes,
-    Boxes,
-    BoxKernel,
-    BoxKernels,
-    box_singles,
-    box_doubles
-);
-drives!(
-    drive_spheres,
+asks!(Boxes, BoxKernel, BoxKernels, box_singles, box_doubles);
+asks!(
     Spheres,
     SphereKernel,
     SphereKernels,
     sphere_singles,
     sphere_doubles
 );
+
+impl Ask for relative::Lot<'_> {
+    fn count(&self) -> usize {
+        words::Lot::len(self)
+    }
+
+    #[cfg(feature = "parallel")]
+    fn part(&self, range: Range<usize>) -> Self {
+        self.part(range)
+    }
+
+    fn ask<Out: Sink>(
+        &self,
+        culler: &Culler,
+        out: &mut Out,
+        counts: &mut VolumeCounts,
+    ) -> Result<(), VolumeErrorAt> {
+        let drive = Drive {
+            culler,
+            rows: self.rows,
+            lot: self,
+            counts,
+        };
+        words::singles(Level::new(), drive, out)
+    }
+}
 
 #[cfg(test)]
 mod tests;

@@ -14,11 +14,14 @@
 //! singles a conversion is off by 2^-150, far below what the threshold has for underflow. What
 //! is beyond the range of `f32` is infinite there, and so not settled in registers.
 
+use super::box_set::{BoxBlocks, BoxSet};
 use super::boxes::Boxes;
-use super::words::{BLOCK, Lot, Words};
+use super::words::{self, Block, Words};
 use crate::math::{NonFinite, Vec3};
-use crate::volume::{Aabb, Rows, Volume, VolumeErrorAt};
+use crate::volume::{Aabb, Culler, Rows, Volume, VolumeErrorAt};
 use fearless_simd::prelude::*;
+#[cfg(feature = "parallel")]
+use std::ops::Range;
 
 /// Boxes in `f64`, with their places relative to an anchor in `f32`.
 ///
@@ -46,8 +49,7 @@ use fearless_simd::prelude::*;
 #[derive(Clone, Debug)]
 pub struct RelativeBoxes {
     anchor: Vec3<f64>,
-    /// Least, then greatest coordinates.
-    near: [Vec<f32>; 6],
+    near: BoxSet<f32>,
     exact: Vec<Aabb<f64>>,
 }
 
@@ -92,7 +94,7 @@ impl RelativeBoxes {
     pub fn new(anchor: impl Into<Vec3<f64>>, boxes: &[Aabb<f64>]) -> Result<Self, RelativeError> {
         let mut all = Self {
             anchor: Vec3::default(),
-            near: Default::default(),
+            near: BoxSet::default(),
             exact: boxes.to_vec(),
         };
         for (index, volume) in boxes.iter().enumerate() {
@@ -111,10 +113,10 @@ impl RelativeBoxes {
         let anchor = anchor.into();
         NonFinite::check(None, anchor).map_err(RelativeError::Anchor)?;
         self.anchor = anchor;
-        for (k, array) in self.near.iter_mut().enumerate() {
-            let number = |b: &Aabb<f64>| relative([b.min, b.max][k / 3], anchor)[k % 3];
-            array.clear();
-            array.extend(self.exact.iter().map(number));
+        self.near.clear();
+        for volume in &self.exact {
+            let [min, max] = [volume.min, volume.max].map(|p| relative(p, anchor));
+            self.near.append(Aabb::new(min, max));
         }
         Ok(())
     }
@@ -132,7 +134,53 @@ impl RelativeBoxes {
     }
 }
 
-impl Lot<f32, 6> for RelativeBoxes {
+impl RelativeBoxes {
+    /// With a frustum's half spaces relative to the anchor.
+    pub(super) fn seen_by(&self, culler: &Culler) -> Seen<'_> {
+        Seen {
+            boxes: self,
+            rows: Rows::relative_to(culler.half_spaces(), self.anchor),
+        }
+    }
+}
+
+/// Boxes, and half spaces relative to their anchor.
+pub(super) struct Seen<'a> {
+    boxes: &'a RelativeBoxes,
+    rows: Rows<f32>,
+}
+
+impl Seen<'_> {
+    pub(super) fn lot(&self) -> Lot<'_> {
+        Lot {
+            rows: &self.rows,
+            near: BoxBlocks::from(&self.boxes.near),
+            exact: &self.boxes.exact,
+        }
+    }
+}
+
+/// Some of the boxes.
+#[derive(Clone, Copy)]
+pub(super) struct Lot<'a> {
+    pub(super) rows: &'a Rows<f32>,
+    near: BoxBlocks<'a, f32>,
+    exact: &'a [Aabb<f64>],
+}
+
+#[cfg(feature = "parallel")]
+impl Lot<'_> {
+    /// Some of these.
+    pub(super) fn part(&self, range: Range<usize>) -> Self {
+        Self {
+            rows: self.rows,
+            near: self.near.part(range.clone()),
+            exact: &self.exact[range],
+        }
+    }
+}
+
+impl words::Lot<f32, 6> for Lot<'_> {
     fn len(&self) -> usize {
         self.exact.len()
     }
@@ -142,22 +190,22 @@ impl Lot<f32, 6> for RelativeBoxes {
     }
 
     #[inline(always)]
-    fn arrays(&self) -> Option<[&[f32]; 6]> {
-        let [a, b, c, d, e, f] = &self.near;
-        Some([a, b, c, d, e, f])
+    fn block(&self, start: usize) -> Option<Block<'_, f32, 6>> {
+        let (block, largest) = self.near.block(start)?;
+        Some((block.each_ref(), Some(largest)))
     }
 
+    /// All are in blocks.
     #[inline(always)]
-    fn numbers(&self, index: usize) -> [f32; 6] {
-        let at = |k: usize| self.near[k].get(index).copied().unwrap_or_default();
-        [at(0), at(1), at(2), at(3), at(4), at(5)]
+    fn numbers(&self, _: usize) -> [f32; 6] {
+        [f32::NAN; 6]
     }
 
     #[inline(always)]
     fn words<S, V, const N: usize, const INSIDE: bool>(
         simd: S,
         rows: &Rows<f32>,
-        block: [&[f32; BLOCK]; 6],
+        block: Block<'_, f32, 6>,
     ) -> Words
     where
         S: Simd,

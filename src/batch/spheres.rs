@@ -18,10 +18,12 @@
 //! A block with NaN or a negative radius is settled one by one, which finds it; with an
 //! infinity S + r is infinite.
 
-use super::words::{BLOCK, Lot, WORD, Word, Words};
+use super::words::{BLOCK, Block, Lot, WORD, Word, Words, blocks};
 use crate::math::{Real, Vec3};
 use crate::volume::{Row, Rows, Sphere, Volume};
 use fearless_simd::prelude::*;
+#[cfg(feature = "parallel")]
+use std::ops::Range;
 
 /// Balls in four arrays, or in one.
 #[derive(Clone, Copy, Debug)]
@@ -72,6 +74,18 @@ impl<T: Real> Spheres<'_, T> {
         }
     }
 
+    /// Some of them, of as many as there are.
+    #[cfg(feature = "parallel")]
+    pub(super) fn part(&self, range: Range<usize>) -> Self {
+        match *self {
+            Spheres::Arrays(SphereArrays { center, radius }) => Spheres::Arrays(SphereArrays {
+                center: center.map(|array| &array[range.clone()]),
+                radius: &radius[range],
+            }),
+            Spheres::Slice(spheres) => Spheres::Slice(&spheres[range]),
+        }
+    }
+
     /// Whether there is none.
     #[must_use]
     pub fn is_empty(&self) -> bool {
@@ -104,10 +118,11 @@ impl<T: Real> Lot<T, 4> for Spheres<'_, T> {
     }
 
     #[inline(always)]
-    fn arrays(&self) -> Option<[&[T]; 4]> {
+    fn block(&self, start: usize) -> Option<Block<'_, T, 4>> {
         match self {
             Spheres::Arrays(SphereArrays { center, radius }) => {
-                Some([center[0], center[1], center[2], radius])
+                let arrays = [center[0], center[1], center[2], radius];
+                Some((blocks(arrays, start)?, None))
             }
             Spheres::Slice(_) => None,
         }
@@ -123,7 +138,7 @@ impl<T: Real> Lot<T, 4> for Spheres<'_, T> {
     fn words<S, V, const N: usize, const INSIDE: bool>(
         simd: S,
         rows: &Rows<T>,
-        block: [&[T; BLOCK]; 4],
+        (block, _): Block<'_, T, 4>,
     ) -> Words
     where
         S: Simd,

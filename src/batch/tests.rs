@@ -4,6 +4,7 @@ use super::*;
 use crate::frustum::Frustum;
 use crate::math::{Segment, Vec3};
 use crate::samples::{BLOCK, Family};
+use crate::volume::Rows;
 use crate::volume::{Aabb, Sphere, VolumeError};
 
 /// The widest registers of this machine, and those that every one has.
@@ -65,9 +66,11 @@ macro_rules! comparison {
                     }
                 }
                 let to_masks = drive(culler, rows, &lot, &mut counts);
-                words::$kernel(level, to_masks, &mut masks).unwrap();
+                words::$kernel(level, to_masks, &mut masks.prepare(volumes.len())).unwrap();
                 let to_classes = drive(culler, rows, &lot, &mut counts);
-                words::$kernel(level, to_classes, &mut classes).unwrap();
+                classes.resize(volumes.len(), Containment::Crossing);
+                words::$kernel(level, to_classes, &mut Classes(&mut classes)).unwrap();
+                list.clear();
                 let numbers = &mut Numbers {
                     list: &mut list,
                     next: 0,
@@ -221,7 +224,7 @@ fn few_are_asked_for_one_by_one() {
     let boxes: Vec<Aabb<f32>> = (0..4096).map(cube).collect();
     let mut counts = VolumeCounts::default();
     culler
-        .drive_boxes(Boxes::from(&boxes), &mut Vec::new(), &mut counts)
+        .classes(&Boxes::from(&boxes), &mut Vec::new(), &mut counts)
         .unwrap();
     assert_eq!(counts.filter_failures, 0, "beyond the filter in f64");
     assert!(counts.unsettled < 16, "{}", counts.unsettled);
@@ -230,7 +233,7 @@ fn few_are_asked_for_one_by_one() {
     let touching = [Aabb::new(near, near); 40];
     let mut counts = VolumeCounts::default();
     culler
-        .drive_boxes(Boxes::from(&touching[..]), &mut Vec::new(), &mut counts)
+        .classes(&Boxes::from(&touching[..]), &mut Vec::new(), &mut counts)
         .unwrap();
     assert_eq!(counts.unsettled, 40);
 }

@@ -20,6 +20,9 @@ pub(super) const WORD: usize = u64::BITS as usize;
 /// pass over them to the next, so many that loops are not unrolled altogether.
 pub(super) const BLOCK: usize = 8 * WORD;
 
+/// A block's numbers; and if it is known that all are volumes, their largest magnitude.
+pub(super) type Block<'a, T, const K: usize> = ([&'a [T; BLOCK]; K], Option<T>);
+
 /// The bits of a block.
 pub(super) type Words = [Word; BLOCK / WORD];
 
@@ -49,8 +52,8 @@ pub(super) trait Lot<T: Real, const K: usize> {
 
     fn volume(&self, index: usize) -> Option<Volume>;
 
-    /// Where the numbers lie side by side.
-    fn arrays(&self) -> Option<[&[T]; K]>;
+    /// A whole block from `start` on, where its numbers lie side by side.
+    fn block(&self, start: usize) -> Option<Block<'_, T, K>>;
 
     /// The numbers of one.
     fn numbers(&self, index: usize) -> [T; K];
@@ -59,7 +62,7 @@ pub(super) trait Lot<T: Real, const K: usize> {
     fn words<S, V, const N: usize, const INSIDE: bool>(
         simd: S,
         rows: &Rows<T>,
-        block: [&[T; BLOCK]; K],
+        block: Block<'_, T, K>,
     ) -> Words
     where
         S: Simd,
@@ -73,9 +76,6 @@ pub(super) trait Sink {
 
     /// The words of the next `count` volumes, all settled; no other bits are set.
     fn take(&mut self, count: usize, word: Word);
-
-    /// Forgets all.
-    fn clear(&mut self);
 }
 
 /// Asks a frustum about all volumes of a lot.
@@ -87,7 +87,7 @@ pub(super) struct Drive<'a, T, L> {
 }
 
 impl<T: Real, L> Drive<'_, T, L> {
-    /// On an error the sink is empty.
+    /// On an error the sink has what came before.
     #[inline(always)]
     pub(super) fn run<S, V, const N: usize, const K: usize, Out: Sink>(
         &mut self,
@@ -99,17 +99,14 @@ impl<T: Real, L> Drive<'_, T, L> {
         V: SimdFloat<S, Element = T, Array = [T; N]>,
         L: Lot<T, K>,
     {
-        out.clear();
-        let arrays = self.lot.arrays();
         let mut gathered = [[T::ZERO; BLOCK]; K];
         for start in (0..self.lot.len()).step_by(BLOCK) {
             let count = BLOCK.min(self.lot.len() - start);
-            let whole = arrays.and_then(|arrays| blocks(arrays, start));
-            let block = match whole {
+            let block = match self.lot.block(start) {
                 Some(block) => block,
                 None => {
                     self.gather(start, count, &mut gathered);
-                    gathered.each_ref()
+                    (gathered.each_ref(), None)
                 }
             };
             let words = match Out::INSIDE {
@@ -123,11 +120,8 @@ impl<T: Real, L> Drive<'_, T, L> {
                 let count = count.min(WORD);
                 let present = u64::MAX >> (WORD - count);
                 word.unsettled &= present;
-                if word.unsettled != 0
-                    && let Err(error) = self.settle(start + k * WORD, &mut word)
-                {
-                    out.clear();
-                    return Err(error);
+                if word.unsettled != 0 {
+                    self.settle(start + k * WORD, &mut word)?;
                 }
                 word.outside &= present;
                 word.inside &= present;
@@ -182,7 +176,10 @@ impl<T: Real, L> Drive<'_, T, L> {
 
 /// A block from `start` of each array, if there are so many.
 #[inline(always)]
-fn blocks<T, const K: usize>(arrays: [&[T]; K], start: usize) -> Option<[&[T; BLOCK]; K]> {
+pub(super) fn blocks<T, const K: usize>(
+    arrays: [&[T]; K],
+    start: usize,
+) -> Option<[&[T; BLOCK]; K]> {
     let mut blocks = [arrays.first()?.get(start..)?.first_chunk()?; K];
     for (block, array) in blocks.iter_mut().zip(arrays) {
         *block = array.get(start..)?.first_chunk()?;

@@ -9,7 +9,7 @@ pub(crate) mod plain;
 mod predicates;
 mod result;
 pub(crate) mod six_planes;
-mod slice;
+pub(crate) mod slice;
 pub(crate) mod vw;
 
 pub use cohen_sutherland::CohenSutherland;

@@ -103,6 +103,15 @@ impl Values {
     }
 }
 
+/// For a sum S of the magnitudes of a segment's coordinates, below the limit: `constant +
+/// factor * S`.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Beyond {
+    pub(crate) constant: f64,
+    pub(crate) factor: f64,
+    pub(crate) limit: f64,
+}
+
 impl Filter {
     /// The values at a point.
     pub(crate) fn values(&self, p: Vec3<f64>) -> Values {
@@ -206,6 +215,45 @@ impl Filter {
             self.depth_threshold(size)
         };
         (depth, self.side_threshold(size))
+    }
+
+    /// How far from a face both ends of a segment are certain to this filter, in units of
+    /// the largest magnitude in the face's normal (see `batch/segments/planes.rs`).
+    pub(crate) fn certain_beyond(&self) -> Beyond {
+        let nothing = Beyond {
+            constant: f64::INFINITY,
+            factor: 0.0,
+            limit: 0.0,
+        };
+        let away = 2.0 * size(self.origin);
+        let limit = self.limit / 2.0 - away;
+        // The rounded normal's largest number, less what rounding may have added to it.
+        let largest = |across: Vec3<f64>, slope: f64| {
+            let number = |j: usize| {
+                let (a, b) = (across[j], slope * self.axes[2][j]);
+                (a - self.sigma * b).abs() - 2.0 * f64::EPSILON * (a.abs() + b.abs())
+            };
+            number(0).max(number(1)).max(number(2))
+        };
+        let [x, y, z] = self.axes;
+        let across = [x, x, y, y];
+        let side = (0..4).map(|i| largest(across[i], self.slope[i]));
+        let side = side.fold(f64::INFINITY, f64::min);
+        let depth = z.x.abs().max(z.y.abs()).max(z.z.abs());
+        if !(side > 0.0 && depth > 0.0 && limit > 0.0) {
+            return nothing;
+        }
+        // A rounded value is within a tenth of its threshold of the true one.
+        let part = |(constant, factor): (f64, f64), normal: f64| {
+            let scale = 1.25 / normal;
+            ((constant + factor * away) * scale, factor * scale)
+        };
+        let (side, depth) = (part(self.side, side), part(self.depth, depth));
+        Beyond {
+            constant: side.0.max(depth.0),
+            factor: side.1.max(depth.1),
+            limit,
+        }
     }
 
     /// A face's threshold.

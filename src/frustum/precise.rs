@@ -80,6 +80,21 @@ impl WorldRow {
     }
 }
 
+impl WorldRow {
+    /// What coordinate j contributes, the same face in each lane.
+    #[inline(always)]
+    fn term<F: Lanes>(&self, j: usize, p: F, origin: Vec3<f64>) -> (F, F) {
+        let halves = (p.all(self.halves[j].0), p.all(self.halves[j].1));
+        term(
+            p,
+            origin[j],
+            p.all(self.normal[j]),
+            halves,
+            p.all(self.rests[j]),
+        )
+    }
+}
+
 /// The six faces, in the order of [`super::Face::ALL`].
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Precise {
@@ -167,12 +182,46 @@ impl Precise {
         let slope = width.lanes(rows.map(|r| r.slope));
         let upper = width.lanes(rows.map(|r| r.halves.0));
         let lower = width.lanes(rows.map(|r| r.halves.1));
-        let (w, w_rest) = two_diff(z, z.all(self.near));
-        let (product, low) = two_prod_split(slope, (upper, lower), w);
-        let low = low + (slope * w_rest + width.lanes(rows.map(|r| r.rest)) * w);
-        let (across, more) = two_diff(c, width.lanes(rows.map(|r| r.at)));
-        let (g, rest) = two_diff(across, product);
-        (g, rest + (more - low))
+        let lanes = RowLanes {
+            at: width.lanes(rows.map(|r| r.at)),
+            slope,
+            halves: (upper, lower),
+            rest: width.lanes(rows.map(|r| r.rest)),
+        };
+        row_value(&lanes, self.near, c, z)
+    }
+
+    /// One face's magnitudes at points whose coordinates come axis by axis: the same bits
+    /// as [`Precise::magnitudes`].
+    #[inline(always)]
+    pub(crate) fn magnitude<F: Lanes>(&self, face: usize, p: impl Fn(usize) -> F) -> F {
+        let (g, rest) = match &self.world {
+            None => {
+                let row = &self.rows[face & 7];
+                let z = p(2);
+                let c = if row.axis == 2 { z } else { p(row.axis) };
+                let all = |v: f64| z.all(v);
+                row_value(
+                    &RowLanes {
+                        at: all(row.at),
+                        slope: all(row.slope),
+                        halves: (all(row.halves.0), all(row.halves.1)),
+                        rest: all(row.rest),
+                    },
+                    self.near,
+                    c,
+                    z,
+                )
+            }
+            Some((origin, rows)) => {
+                let row = &rows[face & 7];
+                let x = row.term(0, p(0), *origin);
+                let y = row.term(1, p(1), *origin);
+                let z = row.term(2, p(2), *origin);
+                sum([x, y, z], z.0.all(row.offset), z.0.all(row.offset_rest))
+            }
+        };
+        (g + rest).abs()
     }
 
     /// One face's value with its sign, the high part rounded.
@@ -219,6 +268,24 @@ impl Precise {
     }
 }
 
+/// A face over the coordinates of the identity pose, in each lane.
+struct RowLanes<F> {
+    at: F,
+    slope: F,
+    halves: (F, F),
+    rest: F,
+}
+
+#[inline(always)]
+fn row_value<F: Lanes>(row: &RowLanes<F>, near: f64, c: F, z: F) -> (F, F) {
+    let (w, w_rest) = two_diff(z, z.all(near));
+    let (product, low) = two_prod_split(row.slope, row.halves, w);
+    let low = low + (row.slope * w_rest + row.rest * w);
+    let (across, more) = two_diff(c, row.at);
+    let (g, rest) = two_diff(across, product);
+    (g, rest + (more - low))
+}
+
 #[inline(always)]
 fn values_in_world<W: Width<N>, const N: usize>(
     width: W,
@@ -226,31 +293,52 @@ fn values_in_world<W: Width<N>, const N: usize>(
     rows: [&WorldRow; N],
     points: [Vec3<f64>; N],
 ) -> (W::Lanes, W::Lanes) {
-    let (x, x_rest) = term(width, 0, rows, points, origin);
-    let (y, y_rest) = term(width, 1, rows, points, origin);
-    let (z, z_rest) = term(width, 2, rows, points, origin);
-    let (xy, e) = two_sum(x, y);
-    let (xyz, f) = two_sum(xy, z);
-    let (g, h) = two_sum(xyz, width.lanes(rows.map(|r| r.offset)));
-    let sums = (e + f) + (h + width.lanes(rows.map(|r| r.offset_rest)));
-    (g, ((x_rest + y_rest) + z_rest) + sums)
+    let x = lanes_term(width, 0, rows, points, origin);
+    let y = lanes_term(width, 1, rows, points, origin);
+    let z = lanes_term(width, 2, rows, points, origin);
+    sum(
+        [x, y, z],
+        width.lanes(rows.map(|r| r.offset)),
+        width.lanes(rows.map(|r| r.offset_rest)),
+    )
 }
 
-/// What coordinate j contributes.
+/// What coordinate j contributes, a face a lane.
 #[inline(always)]
-fn term<W: Width<N>, const N: usize>(
+fn lanes_term<W: Width<N>, const N: usize>(
     width: W,
     j: usize,
     rows: [&WorldRow; N],
     points: [Vec3<f64>; N],
     origin: Vec3<f64>,
 ) -> (W::Lanes, W::Lanes) {
-    let p = width.lanes(points.map(|p| p[j]));
-    let (c, c_low) = two_diff(p, p.all(origin[j]));
     let normal = width.lanes(rows.map(|r| r.normal[j]));
     let upper = width.lanes(rows.map(|r| r.halves[j].0));
     let lower = width.lanes(rows.map(|r| r.halves[j].1));
-    let (product, rest) = two_prod_split(normal, (upper, lower), c);
-    let low = normal * c_low + width.lanes(rows.map(|r| r.rests[j])) * c;
-    (product, rest + low)
+    let rest = width.lanes(rows.map(|r| r.rests[j]));
+    let p = width.lanes(points.map(|p| p[j]));
+    term(p, origin[j], normal, (upper, lower), rest)
+}
+
+/// What one coordinate contributes: its product with the normal's, and the rest.
+#[inline(always)]
+fn term<F: Lanes>(p: F, origin: f64, normal: F, halves: (F, F), rest: F) -> (F, F) {
+    let (c, c_low) = two_diff(p, p.all(origin));
+    let (product, lost) = two_prod_split(normal, halves, c);
+    let low = normal * c_low + rest * c;
+    (product, lost + low)
+}
+
+/// The three contributions and the offset.
+#[inline(always)]
+fn sum<F: Lanes>(
+    [(x, x_rest), (y, y_rest), (z, z_rest)]: [(F, F); 3],
+    offset: F,
+    low: F,
+) -> (F, F) {
+    let (xy, e) = two_sum(x, y);
+    let (xyz, f) = two_sum(xy, z);
+    let (g, h) = two_sum(xyz, offset);
+    let sums = (e + f) + (h + low);
+    (g, ((x_rest + y_rest) + z_rest) + sums)
 }

@@ -53,6 +53,20 @@ impl<T: Real> Rows<T> {
         self.factor * size + (self.constant + T::from_f64(more))
     }
 
+    /// The normal and the offset of a face, by number.
+    #[inline(always)]
+    pub(crate) fn face(&self, face: usize) -> ([T; 3], T) {
+        let Row { normal, offset, .. } = self.near;
+        match face {
+            0 => (normal, offset),
+            1 => (normal.map(|n| -n), self.far),
+            _ => {
+                let side = &self.sides[(face - 2) & 3];
+                (side.normal, side.offset)
+            }
+        }
+    }
+
     /// From the faces in the order of [`crate::Frustum::faces`]: five or six.
     pub(crate) fn new(faces: &[HalfSpace]) -> Self {
         Self::with_offsets(faces, |h| h.rounded()[3])
