@@ -1,6 +1,6 @@
 //! Segments and boxes as arrays.
 
-use frusta::batch::{BoxArrays, SegmentArrays};
+use frusta::batch::{BoxArrays, BoxSet, SegmentArrays};
 use frusta::{Aabb, FarCorners, Frustum, Segment};
 use rayon::prelude::*;
 use std::ops::Range;
@@ -82,8 +82,16 @@ impl BoxColumns {
         Aabb::new([at(0), at(1), at(2)], [at(3), at(4), at(5)])
     }
 
-    pub(crate) fn all(&self) -> BoxArrays<'_, f32> {
-        self.range(0..self.0[0].len())
+    pub(crate) fn len(&self) -> usize {
+        self.0[0].len()
+    }
+
+    /// All, in pieces of so many.
+    pub(crate) fn pieces(&self, piece: usize) -> impl Iterator<Item = Range<usize>> + use<> {
+        let len = self.len();
+        (0..len)
+            .step_by(piece)
+            .map(move |start| start..len.min(start + piece))
     }
 
     pub(crate) fn range(&self, range: Range<usize>) -> BoxArrays<'_, f32> {
@@ -92,6 +100,10 @@ impl BoxColumns {
             min: [a, b, c],
             max: [d, e, f],
         }
+    }
+
+    pub(crate) fn set(&self, range: Range<usize>) -> BoxSet<f32> {
+        BoxSet::new(range.map(|i| self.get(i))).expect("boxes")
     }
 
     /// Reads every byte once.

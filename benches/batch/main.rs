@@ -20,9 +20,8 @@ mod mixes;
 mod turns;
 
 use data::{BoxColumns, SegmentColumns};
-use frusta::batch::{ContainmentMasks, SegmentIntervals};
-use frusta::{Accuracy, Class, Culler, Pose, SegmentClip, SegmentClipper};
-use frusta::{Segment, VwProjection};
+use frusta::batch::{BoxSet, ContainmentMasks, SegmentIntervals};
+use frusta::{Accuracy, Class, Culler, Pose, Segment, SegmentClip, SegmentClipper, VwProjection};
 use mixes::{COUNT, Form, Mix, call, frustum};
 use std::hint::black_box;
 use std::time::Instant;
@@ -34,23 +33,33 @@ const PIECE: usize = 4096;
 /// What does not fit in caches.
 const MANY: usize = 4_000_000;
 
-/// Times what is done with so many, in nanoseconds each.
-fn time(count: usize, mut work: impl FnMut()) -> f64 {
-    let start = Instant::now();
-    work();
-    start.elapsed().as_nanos() as f64 / count as f64
+/// What is done with so many, in nanoseconds each.
+fn timed<'a>(count: usize, mut work: impl FnMut() + 'a) -> Pass<'a> {
+    Box::new(move || {
+        let start = Instant::now();
+        work();
+        start.elapsed().as_nanos() as f64 / count as f64
+    })
 }
 
-fn row(name: &str, names: &[&str], mut passes: Vec<Pass<'_>>, rounds: usize) -> Vec<(f64, f64)> {
+/// Prints times and how many times as fast as the first, which are told.
+fn row(name: &str, rounds: usize, all: Vec<(&str, Pass<'_>)>) -> Vec<f64> {
+    let (names, mut passes): (Vec<_>, Vec<_>) = all.into_iter().unzip();
     let turns = take_turns(&mut passes, rounds);
     print!("{name:28}");
     for (name, (time, ratio)) in names.iter().zip(&turns) {
         print!("  {name} {time:.2} ({ratio:.2})");
     }
     println!();
-    turns
+    turns.into_iter().map(|(_, ratio)| ratio).collect()
 }
 
+fn geometric_mean(ratios: &[f64]) -> f64 {
+    let sum: f64 = ratios.iter().map(|ratio| ratio.ln()).sum();
+    (sum / ratios.len() as f64).exp()
+}
+
+/// All are what each is alone.
 fn assert_intervals(culler: &Culler, all: &[Segment<f32>], intervals: &SegmentIntervals<f32>) {
     assert_eq!(intervals.len(), all.len());
     for (segment, (class, t0, t1)) in all.iter().zip(intervals.iter()) {
@@ -72,51 +81,40 @@ fn segments_in_cache(rounds: usize) {
             let all = &mix.segments::<f32>(COUNT, &pose);
             let columns = &SegmentColumns::new(all);
             let mut intervals = SegmentIntervals::default();
-            culler
-                .clip_intervals(columns.range(0..all.len()), &mut intervals)
-                .expect("finite");
+            let done = culler.clip_intervals(columns.range(0..COUNT), &mut intervals);
+            done.expect("finite");
             assert_intervals(culler, all, &intervals);
-            if rounds == 4 {
-                println!("unsure {}", intervals.unsure());
-            }
             let mut clips: Vec<SegmentClip<f32>> = Vec::new();
-            let passes: Vec<Pass<'_>> = vec![
-                Box::new(|| {
-                    time(COUNT, || {
-                        all.iter().for_each(|s| {
-                            let _ = black_box(&call(&exact, &frustum, s));
-                        });
-                    })
-                }),
-                Box::new(|| {
-                    time(COUNT, || {
-                        for piece in all.chunks(PIECE) {
-                            exact
-                                .clip_segments(&frustum, piece, &mut clips)
-                                .expect("finite");
-                            black_box(&clips);
-                        }
-                    })
-                }),
-                Box::new(|| {
-                    time(COUNT, || {
-                        for start in (0..COUNT).step_by(PIECE) {
-                            let piece = columns.range(start..start + PIECE);
-                            culler
-                                .clip_intervals(piece, &mut intervals)
-                                .expect("finite");
-                            black_box(&intervals);
-                        }
-                    })
-                }),
+            let one_by_one = timed(COUNT, || {
+                for segment in all {
+                    let _ = black_box(&call(&exact, &frustum, segment));
+                }
+            });
+            let slice = timed(COUNT, || {
+                for piece in all.chunks(PIECE) {
+                    let done = exact.clip_segments(&frustum, piece, &mut clips);
+                    done.expect("finite");
+                    black_box(&clips);
+                }
+            });
+            let batch = timed(COUNT, || {
+                for start in (0..COUNT).step_by(PIECE) {
+                    let piece = columns.range(start..start + PIECE);
+                    let done = culler.clip_intervals(piece, &mut intervals);
+                    done.expect("finite");
+                    black_box(&intervals);
+                }
+            });
+            let passes = vec![
+                ("one by one", one_by_one),
+                ("slice", slice),
+                ("batch", batch),
             ];
             let name = format!("{} in the {place}", mix.name());
-            let turns = row(&name, &["one by one", "slice", "batch"], passes, rounds);
-            ratios.push(turns[2].1);
+            ratios.push(row(&name, rounds, passes)[2]);
         }
     }
-    let mean = ratios.iter().map(|r| r.ln()).sum::<f64>() / ratios.len() as f64;
-    println!("geometric mean of the batch's: {:.2}", mean.exp());
+    println!("the batch, geometric mean: {:.2}", geometric_mean(&ratios));
 }
 
 fn segments_out_of_cache(rounds: usize) {
@@ -125,140 +123,134 @@ fn segments_out_of_cache(rounds: usize) {
         let pose = Pose::IDENTITY;
         let culler = &Culler::new(&frustum(Form::Symmetric.shape(), &pose));
         let columns = &SegmentColumns::new(&mix.segments::<f32>(MANY, &pose));
-        let mut copy = columns.clone();
+        let mut to = columns.clone();
+        let copy = timed(MANY, || to.copy_from(columns));
         let mut intervals = SegmentIntervals::default();
-        let passes: Vec<Pass<'_>> = vec![
-            Box::new(|| {
-                time(MANY, || {
-                    copy.copy_from(columns);
-                    black_box(&copy);
-                })
-            }),
-            Box::new(|| {
-                time(MANY, || {
-                    culler
-                        .clip_intervals(columns.range(0..MANY), &mut intervals)
-                        .expect("finite");
-                    black_box(&intervals);
-                })
-            }),
-        ];
-        row(mix.name(), &["copy", "batch"], passes, rounds);
+        let batch = timed(MANY, || {
+            let done = culler.clip_intervals(columns.range(0..MANY), &mut intervals);
+            done.expect("finite");
+        });
+        row(mix.name(), rounds, vec![("copy", copy), ("batch", batch)]);
     }
 }
 
+/// Masks and lists of boxes from arrays and from a set.
+fn boxes_of(name: &str, rounds: usize, culler: &Culler, all: &BoxColumns, piece: usize) {
+    let sets: Vec<BoxSet<f32>> = all.pieces(piece).map(|range| all.set(range)).collect();
+    let mut masks: [ContainmentMasks; 2] = Default::default();
+    let mut lists: [Vec<u32>; 2] = Default::default();
+    for (range, set) in all.pieces(piece).zip(&sets) {
+        culler
+            .mask_boxes(all.range(range.clone()), &mut masks[0])
+            .expect("boxes");
+        culler.mask_boxes(set, &mut masks[1]).expect("boxes");
+        culler
+            .visible_boxes(all.range(range.clone()), &mut lists[0])
+            .expect("boxes");
+        culler.visible_boxes(set, &mut lists[1]).expect("boxes");
+        assert!(masks[0] == masks[1] && lists[0] == lists[1]);
+        assert!(masks[0].visible().eq(lists[0].iter().map(|&i| i as usize)));
+        for (i, number) in range.enumerate().step_by(97) {
+            let one = culler.classify(all.get(number)).expect("a box");
+            assert_eq!(masks[0].get(i), Some(one), "{:?}", all.get(number));
+        }
+    }
+    let [masks, masks_of_set] = &mut masks;
+    let [list, list_of_set] = &mut lists;
+    let count = all.len();
+    let read = timed(count, || {
+        let _ = black_box(all.sum());
+    });
+    let masks = timed(count, || {
+        for range in all.pieces(piece) {
+            culler.mask_boxes(all.range(range), masks).expect("boxes");
+        }
+    });
+    let list = timed(count, || {
+        for range in all.pieces(piece) {
+            culler.visible_boxes(all.range(range), list).expect("boxes");
+        }
+    });
+    let masks_of_set = timed(count, || {
+        for set in &sets {
+            culler.mask_boxes(set, masks_of_set).expect("boxes");
+        }
+    });
+    let list_of_set = timed(count, || {
+        for set in &sets {
+            culler.visible_boxes(set, list_of_set).expect("boxes");
+        }
+    });
+    let passes = vec![
+        ("read", read),
+        ("masks", masks),
+        ("list", list),
+        ("masks of a set", masks_of_set),
+        ("list of a set", list_of_set),
+    ];
+    row(name, rounds, passes);
+}
+
 fn boxes(rounds: usize) {
-    println!("\nboxes, f32, out of cache: ns (times as fast as reading their bytes)");
+    println!("\nboxes, f32: ns (times as fast as reading their bytes)");
     let frustum = frustum(Form::Symmetric.shape(), &Pose::IDENTITY);
     let culler = &Culler::new(&frustum);
     for (name, size) in [("small", 0.02), ("large", 0.5)] {
-        let boxes = &BoxColumns::about(&frustum, size, MANY);
-        let (mut masks, mut list) = (ContainmentMasks::default(), Vec::new());
-        culler.mask_boxes(boxes.all(), &mut masks).expect("boxes");
-        for i in (0..MANY).step_by(97) {
-            let one = culler.classify(boxes.get(i)).expect("a box");
-            assert_eq!(masks.get(i), Some(one), "{:?}", boxes.get(i));
-        }
-        let passes: Vec<Pass<'_>> = vec![
-            Box::new(|| {
-                time(MANY, || {
-                    let _ = black_box(boxes.sum());
-                })
-            }),
-            Box::new(|| {
-                time(MANY, || {
-                    culler.mask_boxes(boxes.all(), &mut masks).expect("boxes")
-                })
-            }),
-            Box::new(|| {
-                time(MANY, || {
-                    culler.visible_boxes(boxes.all(), &mut list).expect("boxes")
-                })
-            }),
-        ];
-        row(name, &["read", "masks", "list"], passes, rounds);
+        let some = BoxColumns::about(&frustum, size, COUNT);
+        boxes_of(&format!("{name}, in cache"), rounds, culler, &some, PIECE);
+        let many = BoxColumns::about(&frustum, size, MANY);
+        boxes_of(
+            &format!("{name}, out of cache"),
+            rounds,
+            culler,
+            &many,
+            MANY,
+        );
     }
 }
 
 fn threads(rounds: usize) {
-    let count = rayon::current_num_threads();
-    println!("\n{count} threads: ns (times as fast as one)");
+    let threads = rayon::current_num_threads();
+    println!("\n{threads} threads: ns (times as fast as one)");
     let pose = Pose::IDENTITY;
     let frustum = frustum(Form::Symmetric.shape(), &pose);
     let culler = &Culler::new(&frustum);
-    let mix = Mix::ALL[1];
-    let columns = &SegmentColumns::new(&mix.segments::<f32>(MANY, &pose));
+    let segments = &SegmentColumns::new(&Mix::ALL[1].segments::<f32>(MANY, &pose));
     let boxes = &BoxColumns::about(&frustum, 0.02, MANY);
-    let mut copy = columns.clone();
-    let (mut one, mut many) = (SegmentIntervals::default(), SegmentIntervals::default());
-    culler
-        .clip_intervals(columns.range(0..MANY), &mut one)
-        .expect("finite");
-    culler
-        .par_clip_intervals(columns.range(0..MANY), &mut many)
-        .expect("finite");
-    assert!(one == many && one.classes().contains(&Class::Cross));
-    let mut other = columns.clone();
-    let copies: Vec<Pass<'_>> = vec![
-        Box::new(|| time(MANY, || copy.copy_from(columns))),
-        Box::new(|| time(MANY, || other.par_copy_from(columns))),
-    ];
-    row("a copy, out of cache", &["one", "all"], copies, rounds);
-    let passes: Vec<Pass<'_>> = vec![
-        Box::new(|| {
-            time(MANY, || {
-                culler
-                    .clip_intervals(columns.range(0..MANY), &mut one)
-                    .expect("finite")
-            })
-        }),
-        Box::new(|| {
-            time(MANY, || {
-                culler
-                    .par_clip_intervals(columns.range(0..MANY), &mut many)
-                    .expect("finite")
-            })
-        }),
-    ];
-    row("segments, out of cache", &["one", "all"], passes, rounds);
-    let (mut one, mut many) = (SegmentIntervals::default(), SegmentIntervals::default());
-    let passes: Vec<Pass<'_>> = vec![
-        Box::new(|| {
-            time(COUNT, || {
-                culler
-                    .clip_intervals(columns.range(0..COUNT), &mut one)
-                    .expect("finite")
-            })
-        }),
-        Box::new(|| {
-            time(COUNT, || {
-                culler
-                    .par_clip_intervals(columns.range(0..COUNT), &mut many)
-                    .expect("finite")
-            })
-        }),
-    ];
-    row("segments, in cache", &["one", "all"], passes, rounds);
-    let (mut one, mut many) = (ContainmentMasks::default(), ContainmentMasks::default());
-    for (name, count) in [("boxes, out of cache", MANY), ("boxes, in cache", COUNT)] {
-        let passes: Vec<Pass<'_>> = vec![
-            Box::new(|| {
-                time(count, || {
-                    culler
-                        .mask_boxes(boxes.range(0..count), &mut one)
-                        .expect("boxes")
-                })
-            }),
-            Box::new(|| {
-                time(count, || {
-                    culler
-                        .par_mask_boxes(boxes.range(0..count), &mut many)
-                        .expect("boxes")
-                })
-            }),
-        ];
-        row(name, &["one", "all"], passes, rounds);
-        assert!(one == many && one.visible().count() > count / 100);
+    let (mut to, mut to_by_all) = (segments.clone(), segments.clone());
+    let copy = timed(MANY, || to.copy_from(segments));
+    let copy_by_all = timed(MANY, || to_by_all.par_copy_from(segments));
+    row("a copy", rounds, vec![("one", copy), ("all", copy_by_all)]);
+    for (place, count) in [("out of", MANY), ("in", COUNT)] {
+        let (mut one, mut all): (SegmentIntervals<f32>, _) = Default::default();
+        let range = || segments.range(0..count);
+        culler.clip_intervals(range(), &mut one).expect("finite");
+        culler
+            .par_clip_intervals(range(), &mut all)
+            .expect("finite");
+        assert!(one == all && one.classes().contains(&Class::Cross));
+        let by_one = timed(count, || {
+            culler.clip_intervals(range(), &mut one).expect("finite")
+        });
+        let by_all = timed(count, || {
+            culler
+                .par_clip_intervals(range(), &mut all)
+                .expect("finite")
+        });
+        let name = format!("segments, {place} cache");
+        row(&name, rounds, vec![("one", by_one), ("all", by_all)]);
+
+        let (mut one, mut all): (ContainmentMasks, _) = Default::default();
+        let set = &boxes.set(0..count);
+        culler.mask_boxes(set, &mut one).expect("boxes");
+        culler.par_mask_boxes(set, &mut all).expect("boxes");
+        assert!(one == all && one.visible().count() > count / 100);
+        let by_one = timed(count, || culler.mask_boxes(set, &mut one).expect("boxes"));
+        let by_all = timed(count, || {
+            culler.par_mask_boxes(set, &mut all).expect("boxes")
+        });
+        let name = format!("boxes, {place} cache");
+        row(&name, rounds, vec![("one", by_one), ("all", by_all)]);
     }
 }
 

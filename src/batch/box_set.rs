@@ -4,12 +4,9 @@
 //! large their numbers are, is found out once, when they are put in. That is a third of the
 //! work. They lie in blocks as the kernels want them.
 
-use super::words::BLOCK;
+use super::words::{BLOCK, Block};
 use crate::math::Real;
 use crate::volume::{Aabb, VolumeError, VolumeErrorAt};
-
-/// A block's coordinates: least x, y and z of each box, then the greatest.
-pub(super) type Block<T> = [[T; BLOCK]; 6];
 
 /// Axis-aligned boxes, kept ready to be asked about again and again.
 ///
@@ -34,8 +31,9 @@ pub(super) type Block<T> = [[T; BLOCK]; 6];
 #[derive(Clone, Debug)]
 pub struct BoxSet<T> {
     len: usize,
-    /// The last one is filled up with points at the origin.
-    blocks: Vec<Block<T>>,
+    /// Least x, y and z of each box, then the greatest. The last block is filled up with
+    /// points at the origin.
+    blocks: Vec<Block<T, 6>>,
     /// No number in a block is of a greater magnitude.
     largest: Vec<T>,
 }
@@ -96,7 +94,7 @@ impl<T: Real> BoxSet<T> {
     /// block then.
     pub(super) fn append(&mut self, volume: Aabb<T>) {
         if self.len % BLOCK == 0 {
-            self.blocks.push([[T::ZERO; BLOCK]; 6]);
+            self.blocks.push([[[T::ZERO; 8]; 6]; BLOCK / 8]);
             self.largest.push(T::ZERO);
         }
         self.len += 1;
@@ -128,8 +126,8 @@ impl<T: Real> BoxSet<T> {
     fn put(&mut self, index: usize, Aabb { min, max }: Aabb<T>) {
         let (block, place) = (index / BLOCK, index % BLOCK);
         let numbers = [min.x, min.y, min.z, max.x, max.y, max.z];
-        for (array, number) in self.blocks[block].iter_mut().zip(numbers) {
-            array[place] = number;
+        for (eight, number) in self.blocks[block][place / 8].iter_mut().zip(numbers) {
+            eight[place % 8] = number;
             // It stays where a larger box was before: a bound all the same.
             if number.abs() > self.largest[block] {
                 self.largest[block] = number.abs();
@@ -142,7 +140,7 @@ impl<T: Real> BoxSet<T> {
 #[derive(Clone, Copy, Debug)]
 pub struct BoxBlocks<'a, T> {
     len: usize,
-    blocks: &'a [Block<T>],
+    blocks: &'a [Block<T, 6>],
     largest: &'a [T],
 }
 
@@ -163,14 +161,15 @@ impl<'a, T: Real> BoxBlocks<'a, T> {
 
     pub(super) fn get(&self, index: usize) -> Option<Aabb<T>> {
         (index < self.len).then(|| {
-            let at = |k: usize| self.blocks[index / BLOCK][k][index % BLOCK];
+            let block = &self.blocks[index / BLOCK];
+            let at = |k: usize| block[index % BLOCK / 8][k][index % 8];
             Aabb::new([at(0), at(1), at(2)], [at(3), at(4), at(5)])
         })
     }
 
     /// The block that begins with a box, and the largest magnitude in it.
     #[inline(always)]
-    pub(super) fn block(&self, start: usize) -> Option<(&'a Block<T>, T)> {
+    pub(super) fn block(&self, start: usize) -> Option<(&'a Block<T, 6>, T)> {
         let k = start / BLOCK;
         Some((self.blocks.get(k)?, *self.largest.get(k)?))
     }

@@ -3,7 +3,7 @@
 //! # Idea
 //! A face's function is greatest at the corner farthest along its normal, least at the
 //! opposite one. Which number of a box is a corner's coordinate depends on the face
-//! alone: for a face it is chosen once which of the six arrays to read.
+//! alone: for a face it is chosen once.
 //! ```text
 //! for each block of 512 boxes:
 //!     whether they are boxes, and the largest number    of a BoxSet known before
@@ -31,7 +31,7 @@
 //! the frame than it does, which would be more boxes to look at again.
 
 use super::box_set::{BoxBlocks, BoxSet};
-use super::words::{BLOCK, Block, Lot, WORD, Word, Words, blocks};
+use super::words::{BLOCK, Block, Lot, WORD, Word, Words, load};
 use crate::math::{Real, Vec3};
 use crate::volume::{Aabb, Row, Rows, Volume};
 use fearless_simd::prelude::*;
@@ -154,17 +154,20 @@ impl<T: Real> Lot<T, 6> for Boxes<'_, T> {
     }
 
     #[inline(always)]
-    fn block(&self, start: usize) -> Option<Block<'_, T, 6>> {
+    fn block(&self, start: usize) -> Option<(&Block<T, 6>, T)> {
+        match self {
+            Boxes::Set(set) => set.block(start),
+            _ => None,
+        }
+    }
+
+    #[inline(always)]
+    fn arrays(&self) -> Option<[&[T]; 6]> {
         match self {
             Boxes::Arrays(BoxArrays { min, max }) => {
-                let arrays = [min[0], min[1], min[2], max[0], max[1], max[2]];
-                Some((blocks(arrays, start)?, None))
+                Some([min[0], min[1], min[2], max[0], max[1], max[2]])
             }
-            Boxes::Slice(_) => None,
-            Boxes::Set(set) => {
-                let (block, largest) = set.block(start)?;
-                Some((block.each_ref(), Some(largest)))
-            }
+            _ => None,
         }
     }
 
@@ -178,7 +181,8 @@ impl<T: Real> Lot<T, 6> for Boxes<'_, T> {
     fn words<S, V, const N: usize, const INSIDE: bool>(
         simd: S,
         rows: &Rows<T>,
-        (block, largest): Block<'_, T, 6>,
+        block: &Block<T, 6>,
+        largest: Option<T>,
     ) -> Words
     where
         S: Simd,
@@ -186,46 +190,51 @@ impl<T: Real> Lot<T, 6> for Boxes<'_, T> {
     {
         let (largest, is_valid) = match largest {
             Some(largest) => (largest, true),
-            None => check::<S, V, T, N>(simd, &block),
+            None => check::<S, V, T, N>(simd, block),
         };
         let threshold = rows.threshold(largest + largest + largest, is_valid);
         let mut greatest = [T::ZERO; BLOCK];
         let mut least = [T::ZERO; BLOCK];
-        first::<S, V, T, N, INSIDE>(simd, rows, &block, &mut greatest, &mut least);
+        first::<S, V, T, N, INSIDE>(simd, rows, block, &mut greatest, &mut least);
         let [_, sides @ ..] = &rows.sides;
-        let of = |which: usize| sides.each_ref().map(|row| corners(row, &block)[which]);
-        let [outside, within] = rest::<S, V, T, N>(simd, sides, of(0), &greatest, threshold);
+        let of = |which: usize| sides.each_ref().map(|row| row.corners[which]);
+        let [outside, within] = rest::<S, V, T, N>(simd, sides, block, of(0), &greatest, threshold);
+        let mut words = [Word::default(); BLOCK / WORD];
         if !INSIDE {
-            return words::<N>(
-                #[inline(always)]
-                |k| [outside[k], 0, outside[k] | within[k]],
-            );
+            for (k, word) in words.iter_mut().enumerate() {
+                let [outside, within] = [&outside, &within].map(|bytes| joined::<N>(bytes, k));
+                word.set::<WORD>(0, [outside, 0, outside | within]);
+            }
+            return words;
         }
-        let [crossed, inside] = rest::<S, V, T, N>(simd, sides, of(1), &least, threshold);
-        words::<N>(|k| {
-            let inside = within[k] & inside[k];
-            [
-                outside[k],
-                inside,
-                outside[k] | inside | within[k] & crossed[k],
-            ]
-        })
+        let [crossed, inside] = rest::<S, V, T, N>(simd, sides, block, of(1), &least, threshold);
+        for (k, word) in words.iter_mut().enumerate() {
+            let all = [&outside, &within, &crossed, &inside];
+            let [outside, within, crossed, inside] = all.map(|bytes| joined::<N>(bytes, k));
+            let inside = within & inside;
+            word.set::<WORD>(0, [outside, inside, outside | inside | within & crossed]);
+        }
+        words
     }
 }
 
-/// A group's numbers.
+/// A word from the bits of its groups, a byte each.
 #[inline(always)]
-fn load<S, V, T, const N: usize>(simd: S, array: &[T; BLOCK], group: usize) -> V
-where
-    S: Simd,
-    V: SimdFloat<S, Element = T>,
-{
-    V::from_slice(simd, &array[group * N..][..N])
+fn joined<const N: usize>(bytes: &[u8; BLOCK / 4], word: usize) -> u64 {
+    let groups = &bytes[word * (WORD / N)..][..WORD / N];
+    if let (8, Ok(eight)) = (N, groups.try_into()) {
+        return u64::from_le_bytes(eight);
+    }
+    let mut bits = 0;
+    for (i, group) in groups.iter().enumerate() {
+        bits |= u64::from(*group) << (i * N);
+    }
+    bits
 }
 
 /// The largest magnitude in a block, and whether all are boxes.
 #[inline(always)]
-fn check<S, V, T, const N: usize>(simd: S, block: &[&[T; BLOCK]; 6]) -> (T, bool)
+fn check<S, V, T, const N: usize>(simd: S, block: &Block<T, 6>) -> (T, bool)
 where
     S: Simd,
     T: Real,
@@ -236,14 +245,14 @@ where
     let mut valid = zero.simd_eq(zero);
     for group in 0..BLOCK / N {
         let low = [
-            load::<S, V, T, N>(simd, block[0], group),
-            load::<S, V, T, N>(simd, block[1], group),
-            load::<S, V, T, N>(simd, block[2], group),
+            load::<S, V, T, N, 6>(simd, block, 0, group),
+            load::<S, V, T, N, 6>(simd, block, 1, group),
+            load::<S, V, T, N, 6>(simd, block, 2, group),
         ];
         let high = [
-            load::<S, V, T, N>(simd, block[3], group),
-            load::<S, V, T, N>(simd, block[4], group),
-            load::<S, V, T, N>(simd, block[5], group),
+            load::<S, V, T, N, 6>(simd, block, 3, group),
+            load::<S, V, T, N, 6>(simd, block, 4, group),
+            load::<S, V, T, N, 6>(simd, block, 5, group),
         ];
         valid &= low[0].simd_le(high[0]) & low[1].simd_le(high[1]) & low[2].simd_le(high[2]);
         least = least.min(low[0].min(low[1]).min(low[2]));
@@ -256,19 +265,8 @@ where
     (largest, valid.to_bitmask() == u64::MAX >> (64 - N))
 }
 
-/// The arrays that have a corner's coordinates.
-type Corner<'a, T> = [&'a [T; BLOCK]; 3];
-
-/// Of the corner farthest along a normal, and of the opposite one.
-#[inline(always)]
-fn corners<'a, T>(row: &Row<T>, block: &[&'a [T; BLOCK]; 6]) -> [Corner<'a, T>; 2] {
-    let pick = |up: bool, axis: usize| block[axis + if up { 3 } else { 0 }];
-    let [a, b, c] = row.up;
-    [
-        [pick(a, 0), pick(b, 1), pick(c, 2)],
-        [pick(!a, 0), pick(!b, 1), pick(!c, 2)],
-    ]
-}
+/// Which numbers of a box are a corner's coordinates.
+type Corner = [usize; 3];
 
 /// A face's numbers in each lane.
 #[derive(Clone, Copy)]
@@ -293,15 +291,22 @@ impl<V: Copy> Plane<V> {
 
     /// `n . p + d` for the corners of a group.
     #[inline(always)]
-    fn value<S, T, const N: usize>(&self, simd: S, p: &Corner<'_, T>, group: usize, d: V) -> V
+    fn value<S, T, const N: usize>(
+        &self,
+        simd: S,
+        block: &Block<T, 6>,
+        p: Corner,
+        group: usize,
+        d: V,
+    ) -> V
     where
         S: Simd,
         V: SimdFloat<S, Element = T>,
     {
         let [x, y, z] = self.normal;
-        let a = load::<S, V, T, N>(simd, p[0], group);
-        let b = load::<S, V, T, N>(simd, p[1], group);
-        let c = load::<S, V, T, N>(simd, p[2], group);
+        let a = load::<S, V, T, N, 6>(simd, block, p[0], group);
+        let b = load::<S, V, T, N, 6>(simd, block, p[1], group);
+        let c = load::<S, V, T, N, 6>(simd, block, p[2], group);
         a.mul_add(x, b.mul_add(y, c.mul_add(z, d)))
     }
 }
@@ -312,7 +317,7 @@ impl<V: Copy> Plane<V> {
 fn first<S, V, T, const N: usize, const INSIDE: bool>(
     simd: S,
     rows: &Rows<T>,
-    block: &[&[T; BLOCK]; 6],
+    block: &Block<T, 6>,
     to_greatest: &mut [T; BLOCK],
     to_least: &mut [T; BLOCK],
 ) where
@@ -325,18 +330,18 @@ fn first<S, V, T, const N: usize, const INSIDE: bool>(
         Plane::<V>::new(simd, &rows.sides[0]),
     );
     let (far, zero) = (V::splat(simd, rows.far), V::splat(simd, T::ZERO));
-    let [farthest, opposite] = corners(&rows.near, block);
-    let [left_farthest, left_opposite] = corners(&rows.sides[0], block);
+    let [farthest, opposite] = rows.near.corners;
+    let [left_farthest, left_opposite] = rows.sides[0].corners;
     for group in 0..BLOCK / N {
         let to = group * N..group * N + N;
-        let along = near.value::<S, T, N>(simd, &farthest, group, zero);
-        let against = near.value::<S, T, N>(simd, &opposite, group, zero);
-        let side = left.value::<S, T, N>(simd, &left_farthest, group, left.offset);
+        let along = near.value::<S, T, N>(simd, block, farthest, group, zero);
+        let against = near.value::<S, T, N>(simd, block, opposite, group, zero);
+        let side = left.value::<S, T, N>(simd, block, left_farthest, group, left.offset);
         // The far face's value is the sum of both offsets less the near one's.
         let greatest = (along + near.offset).min(far - against);
         greatest.min(side).store_slice(&mut to_greatest[to.clone()]);
         if INSIDE {
-            let side = left.value::<S, T, N>(simd, &left_opposite, group, left.offset);
+            let side = left.value::<S, T, N>(simd, block, left_opposite, group, left.offset);
             let least = (against + near.offset).min(far - along);
             least.min(side).store_slice(&mut to_least[to]);
         }
@@ -349,7 +354,8 @@ fn first<S, V, T, const N: usize, const INSIDE: bool>(
 fn rest<S, V, T, const N: usize>(
     simd: S,
     rows: &[Row<T>; 3],
-    corners: [Corner<'_, T>; 3],
+    block: &Block<T, 6>,
+    corners: [Corner; 3],
     so_far: &[T; BLOCK],
     threshold: T,
 ) -> [[u8; BLOCK / 4]; 2]
@@ -368,26 +374,12 @@ where
     let mut bytes = [[0; BLOCK / 4]; 2];
     let [negative, positive] = &mut bytes;
     for group in 0..BLOCK / N {
-        let least = load::<S, V, T, N>(simd, so_far, group)
-            .min(a.value::<S, T, N>(simd, &corners[0], group, a.offset))
-            .min(b.value::<S, T, N>(simd, &corners[1], group, b.offset))
-            .min(c.value::<S, T, N>(simd, &corners[2], group, c.offset));
+        let least = V::from_slice(simd, &so_far[group * N..][..N])
+            .min(a.value::<S, T, N>(simd, block, corners[0], group, a.offset))
+            .min(b.value::<S, T, N>(simd, block, corners[1], group, b.offset))
+            .min(c.value::<S, T, N>(simd, block, corners[2], group, c.offset));
         negative[group] = least.simd_lt(-threshold).to_bitmask() as u8;
         positive[group] = least.simd_gt(threshold).to_bitmask() as u8;
     }
     bytes
-}
-
-/// Words from what groups of N say: outside, inside, settled.
-#[inline(always)]
-fn words<const N: usize>(of: impl Fn(usize) -> [u8; 3]) -> Words {
-    let mut words = [Word::default(); BLOCK / WORD];
-    for (k, word) in words.iter_mut().enumerate() {
-        for group in 0..WORD / N {
-            let [outside, inside, settled] = of(k * (WORD / N) + group);
-            let bits = [outside.into(), inside.into(), settled.into()];
-            word.set::<N>(group * N, bits);
-        }
-    }
-    words
 }

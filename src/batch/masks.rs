@@ -1,7 +1,7 @@
 //! What a batch says: bits, classes, or the numbers of what may be seen.
 
 use super::places::PLACES;
-use super::words::{Sink, WORD, Word};
+use super::words::{BLOCK, Sink, WORD, Word};
 use crate::volume::Containment;
 
 /// A bit for each volume of a batch: 64 a word, the first one lowest.
@@ -172,9 +172,24 @@ impl Sink for Classes<'_> {
 
 /// The numbers of what is not outside.
 pub(super) struct Numbers<'a> {
-    pub(super) list: &'a mut Vec<u32>,
+    list: &'a mut Vec<u32>,
     /// The number of the next volume.
-    pub(super) next: u32,
+    next: u32,
+    /// Numbers on their way to the list.
+    waiting: [u32; BLOCK + 8],
+    len: usize,
+}
+
+impl<'a> Numbers<'a> {
+    /// To the end of a list; the first volume has this number.
+    pub(super) fn new(list: &'a mut Vec<u32>, first: u32) -> Self {
+        Self {
+            list,
+            next: first,
+            waiting: [0; BLOCK + 8],
+            len: 0,
+        }
+    }
 }
 
 impl Sink for Numbers<'_> {
@@ -185,19 +200,28 @@ impl Sink for Numbers<'_> {
     fn take(&mut self, count: usize, word: Word) {
         let visible = visible(count, word.outside);
         if visible != 0 {
-            let mut numbers = [0; WORD + 8];
-            let mut len = 0;
+            if self.len > BLOCK - WORD {
+                self.finish();
+            }
             for (k, byte) in visible.to_le_bytes().into_iter().enumerate() {
                 let next = self.next + 8 * k as u32;
-                if let Some(slots) = numbers[len..].first_chunk_mut::<8>() {
-                    for (slot, place) in slots.iter_mut().zip(PLACES[usize::from(byte)]) {
-                        *slot = next + u32::from(place);
+                let places = &PLACES[usize::from(byte)];
+                let rest = self.waiting.get_mut(self.len..);
+                if let Some(slots) = rest.and_then(|rest| rest.first_chunk_mut::<8>()) {
+                    for (slot, place) in slots.iter_mut().zip(places) {
+                        *slot = next + u32::from(*place);
                     }
                 }
-                len += byte.count_ones() as usize;
+                self.len += byte.count_ones() as usize;
             }
-            self.list.extend_from_slice(&numbers[..len.min(WORD)]);
         }
         self.next += count as u32;
+    }
+
+    #[inline(always)]
+    fn finish(&mut self) {
+        self.list
+            .extend_from_slice(&self.waiting[..self.len.min(BLOCK)]);
+        self.len = 0;
     }
 }

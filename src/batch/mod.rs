@@ -181,10 +181,7 @@ impl Culler {
 
     fn numbers(&self, lot: &impl Ask, numbers: &mut Vec<u32>) -> Result<(), VolumeErrorAt> {
         numbers.clear();
-        let mut list = Numbers {
-            list: numbers,
-            next: 0,
-        };
+        let mut list = Numbers::new(numbers, 0);
         let done = lot.ask(self, &mut list, &mut VolumeCounts::default());
         if done.is_err() {
             numbers.clear();

@@ -195,10 +195,7 @@ impl Culler {
         let pieces = (0..lot.count().div_ceil(PIECE)).into_par_iter();
         let ask = |piece| {
             let mut list = Vec::new();
-            let mut sink = Numbers {
-                list: &mut list,
-                next: (piece * PIECE) as u32,
-            };
+            let mut sink = Numbers::new(&mut list, (piece * PIECE) as u32);
             self.ask_piece(lot, piece, &mut sink).map(|()| list)
         };
         let lists: Vec<Result<Vec<u32>, VolumeErrorAt>> = pieces.map(ask).collect();
@@ -236,9 +233,8 @@ fn first_error<E: Send>(done: impl IndexedParallelIterator<Item = Result<(), E>>
 mod tests {
     use super::*;
     use crate::batch::{BoxArrays, SegmentArrays};
-    use crate::samples::Family;
     use crate::volume::{Aabb, Sphere};
-    use crate::{Segment, Vec3};
+    use crate::{EndRect, Frustum, Pose, Segment, Shape, Vec3};
 
     /// Coordinates in and about a frustum from z = 1 to z = 3.
     fn points(count: usize) -> Vec<Vec3<f32>> {
@@ -255,7 +251,10 @@ mod tests {
     }
 
     fn culler() -> Culler {
-        Culler::new(&Family::Random.scene(1, 0).frustum().clone())
+        let near = EndRect::new(1.0, -1.0, 1.0, -1.0, 1.0);
+        let far = EndRect::new(3.0, -3.0, 3.0, -3.0, 3.0);
+        let shape = Shape::Finite { near, far };
+        Culler::new(&Frustum::new(Pose::IDENTITY, shape).unwrap())
     }
 
     const COUNT: usize = 3 * PIECE + 77;

@@ -190,9 +190,12 @@ impl words::Lot<f32, 6> for Lot<'_> {
     }
 
     #[inline(always)]
-    fn block(&self, start: usize) -> Option<Block<'_, f32, 6>> {
-        let (block, largest) = self.near.block(start)?;
-        Some((block.each_ref(), Some(largest)))
+    fn block(&self, start: usize) -> Option<(&Block<f32, 6>, f32)> {
+        self.near.block(start)
+    }
+
+    fn arrays(&self) -> Option<[&[f32]; 6]> {
+        None
     }
 
     /// All are in blocks.
@@ -205,12 +208,13 @@ impl words::Lot<f32, 6> for Lot<'_> {
     fn words<S, V, const N: usize, const INSIDE: bool>(
         simd: S,
         rows: &Rows<f32>,
-        block: Block<'_, f32, 6>,
+        block: &Block<f32, 6>,
+        largest: Option<f32>,
     ) -> Words
     where
         S: Simd,
         V: SimdFloat<S, Element = f32, Array = [f32; N]>,
     {
-        Boxes::<f32>::words::<S, V, N, INSIDE>(simd, rows, block)
+        Boxes::<f32>::words::<S, V, N, INSIDE>(simd, rows, block, largest)
     }
 }

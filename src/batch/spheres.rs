@@ -18,7 +18,7 @@
 //! A block with NaN or a negative radius is settled one by one, which finds it; with an
 //! infinity S + r is infinite.
 
-use super::words::{BLOCK, Block, Lot, WORD, Word, Words, blocks};
+use super::words::{BLOCK, Block, Lot, WORD, Word, Words, load};
 use crate::math::{Real, Vec3};
 use crate::volume::{Row, Rows, Sphere, Volume};
 use fearless_simd::prelude::*;
@@ -117,12 +117,15 @@ impl<T: Real> Lot<T, 4> for Spheres<'_, T> {
         self.get(index).map(Volume::from)
     }
 
+    fn block(&self, _: usize) -> Option<(&Block<T, 4>, T)> {
+        None
+    }
+
     #[inline(always)]
-    fn block(&self, start: usize) -> Option<Block<'_, T, 4>> {
+    fn arrays(&self) -> Option<[&[T]; 4]> {
         match self {
             Spheres::Arrays(SphereArrays { center, radius }) => {
-                let arrays = [center[0], center[1], center[2], radius];
-                Some((blocks(arrays, start)?, None))
+                Some([center[0], center[1], center[2], radius])
             }
             Spheres::Slice(_) => None,
         }
@@ -138,19 +141,18 @@ impl<T: Real> Lot<T, 4> for Spheres<'_, T> {
     fn words<S, V, const N: usize, const INSIDE: bool>(
         simd: S,
         rows: &Rows<T>,
-        (block, _): Block<'_, T, 4>,
+        block: &Block<T, 4>,
+        _: Option<T>,
     ) -> Words
     where
         S: Simd,
         V: SimdFloat<S, Element = T, Array = [T; N]>,
     {
-        let threshold = threshold::<S, V, T, N>(simd, rows, &block);
+        let threshold = threshold::<S, V, T, N>(simd, rows, block);
         let mut words = [Word::default(); BLOCK / WORD];
         for (k, word) in words.iter_mut().enumerate() {
             for group in 0..WORD / N {
-                let at =
-                    |array: usize| V::from_slice(simd, &block[array][k * WORD + group * N..][..N]);
-                let ball = [at(0), at(1), at(2), at(3)];
+                let ball = ball::<S, V, T, N>(simd, block, k * (WORD / N) + group);
                 let masks = extremes::<S, V, T, INSIDE>(simd, rows, ball, threshold);
                 word.set::<N>(group * N, masks);
             }
@@ -159,9 +161,24 @@ impl<T: Real> Lot<T, 4> for Spheres<'_, T> {
     }
 }
 
+/// The numbers of a group.
+#[inline(always)]
+fn ball<S, V, T, const N: usize>(simd: S, block: &Block<T, 4>, group: usize) -> [V; 4]
+where
+    S: Simd,
+    V: SimdFloat<S, Element = T>,
+{
+    [
+        load::<S, V, T, N, 4>(simd, block, 0, group),
+        load::<S, V, T, N, 4>(simd, block, 1, group),
+        load::<S, V, T, N, 4>(simd, block, 2, group),
+        load::<S, V, T, N, 4>(simd, block, 3, group),
+    ]
+}
+
 /// The block's threshold: infinite if one of it is no ball.
 #[inline(always)]
-fn threshold<S, V, T, const N: usize>(simd: S, rows: &Rows<T>, block: &[&[T; BLOCK]; 4]) -> T
+fn threshold<S, V, T, const N: usize>(simd: S, rows: &Rows<T>, block: &Block<T, 4>) -> T
 where
     S: Simd,
     T: Real,
@@ -171,10 +188,10 @@ where
     let (mut most, mut radius) = (zero, zero);
     let mut valid = zero.simd_eq(zero);
     for group in 0..BLOCK / N {
-        let at = |array: usize| V::from_slice(simd, &block[array][group * N..][..N]);
-        most = most.max(at(0).abs().max(at(1).abs()).max(at(2).abs()));
-        radius = radius.max(at(3));
-        valid &= at(3).simd_ge(zero);
+        let [x, y, z, r] = ball::<S, V, T, N>(simd, block, group);
+        most = most.max(x.abs().max(y.abs()).max(z.abs()));
+        radius = radius.max(r);
+        valid &= r.simd_ge(zero);
     }
     let size = most + most + most + radius;
     let largest = size.to_array().into_iter();

@@ -71,10 +71,7 @@ macro_rules! comparison {
                 classes.resize(volumes.len(), Containment::Crossing);
                 words::$kernel(level, to_classes, &mut Classes(&mut classes)).unwrap();
                 list.clear();
-                let numbers = &mut Numbers {
-                    list: &mut list,
-                    next: 0,
-                };
+                let numbers = &mut Numbers::new(&mut list, 0);
                 words::$kernel(level, drive(culler, rows, &lot, &mut counts), numbers).unwrap();
                 assert_eq!(classes.len(), expected.len());
                 for (i, (class, expected)) in classes.iter().zip(&expected).enumerate() {

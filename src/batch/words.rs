@@ -20,8 +20,29 @@ pub(super) const WORD: usize = u64::BITS as usize;
 /// pass over them to the next, so many that loops are not unrolled altogether.
 pub(super) const BLOCK: usize = 8 * WORD;
 
-/// A block's numbers; and if it is known that all are volumes, their largest magnitude.
-pub(super) type Block<'a, T, const K: usize> = ([&'a [T; BLOCK]; K], Option<T>);
+/// Eight volumes, K numbers each.
+pub(super) type Eight<T, const K: usize> = [[T; 8]; K];
+
+/// A block's numbers, in order of volumes but for eights: one stream through memory, and
+/// whole registers.
+pub(super) type Block<T, const K: usize> = [Eight<T, K>; BLOCK / 8];
+
+/// Number k of a group of N volumes.
+#[inline(always)]
+pub(super) fn load<S, V, T, const N: usize, const K: usize>(
+    simd: S,
+    block: &Block<T, K>,
+    k: usize,
+    group: usize,
+) -> V
+where
+    S: Simd,
+    V: SimdFloat<S, Element = T>,
+{
+    // The remainder changes nothing, and spares a check for each.
+    let numbers = &block[group * N / 8][k % K];
+    V::from_slice(simd, &numbers[group * N % 8..][..N])
+}
 
 /// The bits of a block.
 pub(super) type Words = [Word; BLOCK / WORD];
@@ -52,17 +73,23 @@ pub(super) trait Lot<T: Real, const K: usize> {
 
     fn volume(&self, index: usize) -> Option<Volume>;
 
-    /// A whole block from `start` on, where its numbers lie side by side.
-    fn block(&self, start: usize) -> Option<Block<'_, T, K>>;
+    /// The block from `start` on, if it is kept, and its largest magnitude; all of it are
+    /// volumes.
+    fn block(&self, start: usize) -> Option<(&Block<T, K>, T)>;
+
+    /// Arrays that have the numbers, if there are any.
+    fn arrays(&self) -> Option<[&[T]; K]>;
 
     /// The numbers of one.
     fn numbers(&self, index: usize) -> [T; K];
 
-    /// What a register at a time settles; without INSIDE only what is outside is told.
+    /// What a register at a time settles; without INSIDE only what is outside is told. The
+    /// largest magnitude is given if all are known to be volumes.
     fn words<S, V, const N: usize, const INSIDE: bool>(
         simd: S,
         rows: &Rows<T>,
-        block: Block<'_, T, K>,
+        block: &Block<T, K>,
+        largest: Option<T>,
     ) -> Words
     where
         S: Simd,
@@ -76,6 +103,10 @@ pub(super) trait Sink {
 
     /// The words of the next `count` volumes, all settled; no other bits are set.
     fn take(&mut self, count: usize, word: Word);
+
+    /// All have been told.
+    #[inline(always)]
+    fn finish(&mut self) {}
 }
 
 /// Asks a frustum about all volumes of a lot.
@@ -99,19 +130,19 @@ impl<T: Real, L> Drive<'_, T, L> {
         V: SimdFloat<S, Element = T, Array = [T; N]>,
         L: Lot<T, K>,
     {
-        let mut gathered = [[T::ZERO; BLOCK]; K];
+        let mut gathered = [[[T::ZERO; 8]; K]; BLOCK / 8];
         for start in (0..self.lot.len()).step_by(BLOCK) {
             let count = BLOCK.min(self.lot.len() - start);
-            let block = match self.lot.block(start) {
-                Some(block) => block,
+            let (block, largest) = match self.lot.block(start) {
+                Some((block, largest)) => (block, Some(largest)),
                 None => {
                     self.gather(start, count, &mut gathered);
-                    (gathered.each_ref(), None)
+                    (&gathered, None)
                 }
             };
             let words = match Out::INSIDE {
-                true => L::words::<S, V, N, true>(simd, self.rows, block),
-                false => L::words::<S, V, N, false>(simd, self.rows, block),
+                true => L::words::<S, V, N, true>(simd, self.rows, block, largest),
+                false => L::words::<S, V, N, false>(simd, self.rows, block, largest),
             };
             for (k, mut word) in words.into_iter().enumerate() {
                 let Some(count) = count.checked_sub(k * WORD).filter(|&count| count > 0) else {
@@ -128,19 +159,28 @@ impl<T: Real, L> Drive<'_, T, L> {
                 out.take(count, word);
             }
         }
+        out.finish();
         Ok(())
     }
 
-    /// A block's numbers side by side; beyond the last volume it repeats that.
+    /// A block's numbers; beyond the last volume it repeats that.
     #[inline(always)]
-    fn gather<const K: usize>(&self, start: usize, count: usize, to: &mut [[T; BLOCK]; K])
+    fn gather<const K: usize>(&self, start: usize, count: usize, to: &mut Block<T, K>)
     where
         L: Lot<T, K>,
     {
+        if let Some(arrays) = self.lot.arrays().and_then(|arrays| blocks(arrays, start)) {
+            for (i, eight) in to.iter_mut().enumerate() {
+                for (to, from) in eight.iter_mut().zip(arrays) {
+                    to.copy_from_slice(&from[8 * i..8 * i + 8]);
+                }
+            }
+            return;
+        }
         for i in 0..BLOCK {
             let numbers = self.lot.numbers(start + i.min(count - 1));
-            for (array, number) in to.iter_mut().zip(numbers) {
-                array[i] = number;
+            for (to, number) in to[i / 8].iter_mut().zip(numbers) {
+                to[i % 8] = number;
             }
         }
     }
@@ -176,10 +216,7 @@ impl<T: Real, L> Drive<'_, T, L> {
 
 /// A block from `start` of each array, if there are so many.
 #[inline(always)]
-pub(super) fn blocks<T, const K: usize>(
-    arrays: [&[T]; K],
-    start: usize,
-) -> Option<[&[T; BLOCK]; K]> {
+fn blocks<T, const K: usize>(arrays: [&[T]; K], start: usize) -> Option<[&[T; BLOCK]; K]> {
     let mut blocks = [arrays.first()?.get(start..)?.first_chunk()?; K];
     for (block, array) in blocks.iter_mut().zip(arrays) {
         *block = array.get(start..)?.first_chunk()?;

@@ -12,8 +12,9 @@ use crate::math::{PerReal, Real, Vec3};
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Row<T> {
     pub(crate) normal: [T; 3],
-    /// Whether it points towards larger coordinates.
-    pub(crate) up: [bool; 3],
+    /// Which of a box's six numbers, the least coordinates and the greatest, are those of the
+    /// corner farthest along the normal; and of the opposite one.
+    pub(crate) corners: [[usize; 3]; 2],
     pub(crate) offset: T,
     /// The normal's length.
     pub(crate) length: T,
@@ -31,6 +32,12 @@ pub(crate) struct Rows<T> {
     pub(crate) factor: T,
     /// And what they are beside that; infinite where nothing is certain.
     pub(crate) constant: T,
+}
+
+/// By whether the normal points towards larger coordinates.
+fn corners(up: [bool; 3]) -> [[usize; 3]; 2] {
+    let farthest = [0, 1, 2].map(|axis| axis + 3 * usize::from(up[axis]));
+    [farthest, farthest.map(|k| (k + 3) % 6)]
 }
 
 /// What underflow does to a value stays far below the first, and sums do not overflow
@@ -83,14 +90,14 @@ impl<T: Real> Rows<T> {
             let d = T::from_f64(offset(h));
             Row {
                 normal: [a, b, c],
-                up: [0, 1, 2].map(|axis| h.points_up(axis)),
+                corners: corners([0, 1, 2].map(|axis| h.points_up(axis))),
                 offset: d,
                 length: T::from_f64(h.length()),
             }
         };
         let nothing = Row {
             normal: [T::ZERO; 3],
-            up: [false; 3],
+            corners: corners([false; 3]),
             offset: T::ZERO,
             length: T::ZERO,
         };

@@ -310,7 +310,13 @@ impl Boxes {
         }
         field.push(enter(OursBox::new(frustum, false)));
         field.push(enter(OursBox::new(frustum, true)));
-        for batch in [Batch::Masks, Batch::List, Batch::ListOfBoxes] {
+        for batch in [
+            Batch::Masks,
+            Batch::List,
+            Batch::ListOfBoxes,
+            Batch::MasksOfSet,
+            Batch::ListOfSet,
+        ] {
             field.push(Box::new(OursBatch::new(frustum, batch)));
         }
         field

@@ -24,6 +24,9 @@ struct Args {
     /// Where the file goes.
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
+    /// One job only, such as cull-box; all of its inputs.
+    #[arg(long, value_name = "NAME")]
+    job: Option<String>,
     /// Answers one hostile input; asked by this program itself.
     #[arg(long, hide = true)]
     fact: Option<usize>,
@@ -63,7 +66,7 @@ fn run(args: &Args) -> io::Result<()> {
         opened.map_err(|e| failed(path, e))?;
     }
     writeln!(out, "{}", table::heading())?;
-    let rows = contests(&effort, &mut out)?;
+    let rows = contests(&effort, args.job.as_deref(), &mut out)?;
     let facts = facts::ask(&std::env::current_exe()?);
     let report = Report::new(&effort, rows, facts);
     conclude(&report, &mut out)?;
@@ -77,9 +80,17 @@ fn run(args: &Args) -> io::Result<()> {
     }
 }
 
-/// Runs all contests and prints their rows as they come.
-fn contests(effort: &Effort, out: &mut impl Write) -> io::Result<Vec<Row>> {
-    let all = contest::all();
+/// Runs all contests, or those of one job, and prints their rows as they come.
+fn contests(effort: &Effort, job: Option<&str>, out: &mut impl Write) -> io::Result<Vec<Row>> {
+    let mut all = contest::all();
+    if let Some(job) = job {
+        let jobs: Vec<_> = all.iter().map(|c| c.job()).collect();
+        if !jobs.contains(&job) {
+            let known = jobs.join(", ");
+            return Err(io::Error::other(format!("no job {job}; one of {known}")));
+        }
+        all.retain(|contest| contest.job() == job);
+    }
     let steps = all.iter().map(|c| c.steps(effort)).sum();
     let style = ProgressStyle::with_template("{wide_bar} {percent:>3} % {eta:>4} left {msg}");
     let bar = ProgressBar::new(steps).with_style(style.map_err(io::Error::other)?);

@@ -1,8 +1,8 @@
 //! Times, taken in turns.
 //!
 //! On a machine that others use, too, times drift within seconds; ratios drift less. So
-//! everybody does one pass in each round, a ratio is taken within the round, and medians over the
-//! rounds are told.
+//! everybody's pass is timed once in each round, a ratio is taken within the round, and medians over
+//! the rounds are told.
 
 use crate::peer::Timed;
 

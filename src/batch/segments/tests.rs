@@ -129,7 +129,7 @@ fn hardly_any_segment_of_a_scene_is_unsure() {
         all.filter(|c| *c == class).count()
     };
     for class in [Class::Outside, Class::Inside, Class::Cross].map(class) {
-        assert!(class > 1_000, "{class}");
+        assert!(class > 500, "{class}");
     }
 }
 
@@ -145,13 +145,12 @@ fn what_is_not_finite_is_told_by_the_first_of_it() {
         for lot in [Segments::from(lot(&arrays)), Segments::from(&segments)] {
             let found = culler.clip_intervals(lot, &mut intervals).unwrap_err();
             let expected = segments[at].check_finite().unwrap_err();
-            assert_eq!(
-                found,
-                NonFiniteAt {
-                    index: at,
-                    found: expected
-                }
-            );
+            let expected = NonFiniteAt {
+                index: at,
+                found: expected,
+            };
+            // Texts: NaN differs from itself.
+            assert_eq!(format!("{found:?}"), format!("{expected:?}"));
             assert!(intervals.is_empty());
         }
     }
@@ -176,4 +175,21 @@ fn extreme_sizes_are_as_alone() {
         let wide: Vec<Segment<f64>> = segments.iter().map(|s| s.to_f64()).collect();
         compare(Level::new(), &culler, &wide);
     }
+}
+
+/// A parameter half-way between two singles: doubles cannot tell which is nearer.
+#[test]
+fn a_parameter_between_two_singles_is_found_precisely() {
+    let end = |z| EndRect::new(z, -1.0, 1e9, -1e9, 1e9);
+    let (near, far) = (end(1.0), end(1e9));
+    let frustum = Frustum::new(Pose::IDENTITY, Shape::Finite { near, far }).unwrap();
+    let size = 16_777_216.0_f32;
+    // (2^24 + 3) / 2^25
+    let segment = Segment::new([-size - 4.0, 0.0, 1e6], [size - 4.0, 0.0, 1e6]);
+    assert_eq!(
+        compare(Level::new(), &Culler::new(&frustum), &[segment; 3]),
+        0
+    );
+    let (_, t0, _) = expected(&frustum, &segment);
+    assert_eq!(t0, 0.5 + 2.0 * f32::EPSILON / 2.0);
 }

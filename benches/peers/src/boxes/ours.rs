@@ -2,7 +2,7 @@
 
 use super::GridBox;
 use crate::peer::{Contestant, Peer, Timed, Who};
-use frusta::batch::{BoxArrays, ContainmentMasks};
+use frusta::batch::{BoxArrays, BoxSet, ContainmentMasks};
 use frusta::{Aabb, Containment, Culler, Frustum, NonFinite, Vec3, VolumeError};
 use std::hint::black_box;
 
@@ -47,7 +47,7 @@ impl Peer for OursPoint {
 /// What boxes' times are compared with: one a call, and in batches.
 pub const REFERENCE_BOX: &str = "Culler::classify";
 /// In batches.
-pub const REFERENCE_BOXES: &str = "Culler::mask_boxes, arrays";
+pub const REFERENCE_BOXES: &str = "Culler::visible_boxes, a set";
 
 /// `Culler::classify`, plane by plane, or `Culler::classify_exact`.
 pub struct OursBox {
@@ -111,6 +111,10 @@ pub enum Batch {
     List,
     /// A draw list, from an array of structures.
     ListOfBoxes,
+    /// Classes as masks, of boxes that are kept.
+    MasksOfSet,
+    /// A draw list, of boxes that are kept: as the others keep theirs, in types of their own.
+    ListOfSet,
 }
 
 /// Batches of boxes, 4,096 a call into buffers that are used again.
@@ -119,6 +123,7 @@ pub struct OursBatch {
     batch: Batch,
     boxes: Vec<Aabb<f32>>,
     arrays: [Vec<f32>; 6],
+    sets: Vec<BoxSet<f32>>,
     masks: ContainmentMasks,
     list: Vec<u32>,
 }
@@ -134,6 +139,7 @@ impl OursBatch {
             batch,
             boxes: Vec::new(),
             arrays: Default::default(),
+            sets: Vec::new(),
             masks: ContainmentMasks::default(),
             list: Vec::new(),
         }
@@ -153,6 +159,14 @@ impl OursBatch {
                 let boxes = &self.boxes[from..to];
                 self.culler.visible_boxes(boxes, &mut self.list)
             }
+            Batch::MasksOfSet => {
+                let set = &self.sets[from / PIECE];
+                self.culler.mask_boxes(set, &mut self.masks)
+            }
+            Batch::ListOfSet => {
+                let set = &self.sets[from / PIECE];
+                self.culler.visible_boxes(set, &mut self.list)
+            }
         }
     }
 
@@ -169,7 +183,9 @@ impl Timed for OursBatch {
         Who {
             library: "frusta",
             function: match self.batch {
-                Batch::Masks => REFERENCE_BOXES,
+                Batch::Masks => "Culler::mask_boxes, arrays",
+                Batch::MasksOfSet => "Culler::mask_boxes, a set",
+                Batch::ListOfSet => REFERENCE_BOXES,
                 Batch::List => "Culler::visible_boxes, arrays",
                 Batch::ListOfBoxes => "Culler::visible_boxes, slice",
             },
@@ -202,7 +218,9 @@ impl Contestant<GridBox> for OursBatch {
             let is_done = self.piece(from, to).is_ok();
             let mut seen = vec![false; to - from];
             match self.batch {
-                Batch::Masks => self.masks.visible().for_each(|i| seen[i] = true),
+                Batch::Masks | Batch::MasksOfSet => {
+                    self.masks.visible().for_each(|i| seen[i] = true)
+                }
                 _ => self.list.iter().for_each(|&i| seen[i as usize] = true),
             }
             all.extend(seen.into_iter().map(|seen| is_done.then_some(seen)));
@@ -212,6 +230,10 @@ impl Contestant<GridBox> for OursBatch {
 
     fn load(&mut self, cases: &[GridBox]) {
         self.boxes = cases.iter().map(|b| Aabb::new(b.min, b.max)).collect();
+        let sets = self.boxes.chunks(PIECE);
+        self.sets = sets
+            .map(|some| BoxSet::new(some.iter().copied()).expect("boxes"))
+            .collect();
         self.arrays = std::array::from_fn(|k| {
             let number = |b: &GridBox| [b.min, b.max][k / 3][k % 3];
             cases.iter().map(number).collect()
