@@ -9,6 +9,7 @@ mod case;
 #[path = "../../tests/check/mod.rs"]
 mod check;
 mod slices;
+mod volumes;
 
 use arbitrary::Unstructured;
 use case::Case;
@@ -28,6 +29,14 @@ pub fn clip(data: &[u8]) {
     check::assert_guarantees(&case.frustum, &case.in_singles());
     slices::check(&case.frustum, &case.segment);
     slices::check(&case.frustum, &case.in_singles());
+}
+
+/// Volumes and batches: exact answers are the oracle's, and those of batches what each volume
+/// or segment gets alone.
+pub fn volumes(data: &[u8]) {
+    if let Ok(Some(case)) = Case::wild(&mut Unstructured::new(data)) {
+        volumes::check(&case.frustum, &case.segment);
+    }
 }
 
 /// Plain answers about any numbers: finite, in order, never a panic; slices as in

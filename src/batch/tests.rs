@@ -96,7 +96,7 @@ fn column<T: Copy, V>(volumes: &[V], number: impl Fn(&V) -> T) -> Vec<T> {
     volumes.iter().map(number).collect()
 }
 
-/// Both layouts of some boxes.
+/// All layouts of some boxes.
 fn with_layouts<T: Real>(boxes: &[Aabb<T>], mut with: impl FnMut(Boxes<'_, T>)) {
     with(Boxes::from(boxes));
     let min = [0, 1, 2].map(|k| column(boxes, |b| b.min[k]));
@@ -105,6 +105,7 @@ fn with_layouts<T: Real>(boxes: &[Aabb<T>], mut with: impl FnMut(Boxes<'_, T>)) 
         min: min.each_ref().map(Vec::as_slice),
         max: max.each_ref().map(Vec::as_slice),
     }));
+    with(Boxes::from(&BoxSet::new(boxes.iter().copied()).unwrap()));
 }
 
 #[test]

@@ -12,6 +12,8 @@ mod turns;
 mod verify;
 mod verify_table;
 mod verify_volumes;
+mod volumes;
+mod volumes_table;
 
 pub use case_line::{CaseLine, CaseLineError, CaseSegment};
 pub use everyday::{Everyday, EverydayRow, everyday, everyday_rounds};
@@ -25,6 +27,7 @@ pub use turns::{Timing, geometric_mean};
 pub use verify::{ExactClipper, FamilyRow, Options, Subject, Witness, verify, verify_watched};
 pub use verify_table::VerifyTable;
 pub use verify_volumes::{VolumeKind, VolumeRow, VolumeTally, verify_volumes};
+pub use volumes::{FalseAccepts, VolumePlan, VolumeSurvey, VolumeTime, volumes};
 
 #[cfg(test)]
 mod tests;

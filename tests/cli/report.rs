@@ -71,8 +71,8 @@ fn the_keys_of_report_json_stay() {
         assert_eq!(keys(object), names);
     };
     promised(
-        "schema frusta command machine seconds seed cases rounds rows witnesses everyday paper \
-         peers omitted",
+        "schema frusta command machine seconds seed cases rounds rows witnesses everyday volumes \
+         false_accepts volume_times paper peers omitted",
         &json,
     );
     promised(
@@ -92,6 +92,18 @@ fn the_keys_of_report_json_stay() {
     promised(
         "mix place algorithm tier slices segments rounds ns_median time_ratio wrong",
         &json["everyday"][0],
+    );
+    promised(
+        "kind cases wrong_class wrongly_outside wrong_in_batch wrong_exact false_accepts",
+        &json["volumes"][0],
+    );
+    promised(
+        "half_extent field_of_view boxes accepted falsely share",
+        &json["false_accepts"][0],
+    );
+    promised(
+        "job function scalar timed rounds ns_median time_ratio",
+        &json["volume_times"][0],
     );
     promised("what why", &json["omitted"][0]);
     assert_eq!(json["schema"], "frusta-report/1");

@@ -7,7 +7,10 @@ use super::machine::Machine;
 use super::omitted::Omission;
 use super::{Measured, Page};
 use frusta::math::hex::Hex;
-use frusta::report::{Everyday, PaperFailure, PaperRow, PaperTable, SurveyRow, SurveyWitness};
+use frusta::report::{
+    Everyday, FalseAccepts, PaperFailure, PaperRow, PaperTable, SurveyRow, SurveyWitness,
+    VolumeKind, VolumeSurvey, VolumeTally, VolumeTime,
+};
 use serde::Serialize;
 use serde_json::{Value, json};
 
@@ -28,6 +31,9 @@ pub(crate) struct Report<'a> {
     pub(crate) rows: Vec<Row>,
     pub(crate) witnesses: Vec<Witness<'a>>,
     everyday: Vec<EverydayRow>,
+    volumes: Vec<Value>,
+    false_accepts: Vec<Value>,
+    volume_times: Vec<Value>,
     paper: Vec<Value>,
     peers: Option<&'a Value>,
     omitted: &'a [Omission],
@@ -38,6 +44,7 @@ impl<'a> Report<'a> {
         let Measured {
             survey,
             everyday,
+            volumes,
             paper,
         } = page.measured;
         Self {
@@ -52,6 +59,13 @@ impl<'a> Report<'a> {
             rows: survey.rows.iter().map(Row::new).collect(),
             witnesses: survey.witnesses.iter().map(Witness::new).collect(),
             everyday: self::everyday(everyday),
+            volumes: volumes.errors.iter().map(volume).collect(),
+            false_accepts: volumes.accepts.iter().map(false_accept).collect(),
+            volume_times: volumes
+                .times
+                .iter()
+                .map(|row| volume_time(volumes, row))
+                .collect(),
             paper: self::paper(paper),
             peers: page.peers,
             omitted: page.omitted,
@@ -170,6 +184,43 @@ fn everyday(everyday: &Everyday) -> Vec<EverydayRow> {
         wrong: row.wrong,
     })
     .collect()
+}
+
+/// A kind of volume in all families.
+fn volume((kind, tally): &(VolumeKind, VolumeTally)) -> Value {
+    json!({
+        "kind": kind.name(),
+        "cases": tally.cases,
+        "wrong_class": tally.wrong,
+        "wrongly_outside": tally.wrongly_outside,
+        "wrong_in_batch": tally.wrong_in_batch,
+        "wrong_exact": tally.wrong_exact,
+        "false_accepts": tally.counts.false_accepts,
+    })
+}
+
+/// Boxes of a size before a view.
+fn false_accept(row: &FalseAccepts) -> Value {
+    json!({
+        "half_extent": row.size,
+        "field_of_view": row.field_of_view,
+        "boxes": row.boxes,
+        "accepted": row.accepted,
+        "falsely": row.falsely,
+        "share": row.share(),
+    })
+}
+
+fn volume_time(volumes: &VolumeSurvey, row: &VolumeTime) -> Value {
+    json!({
+        "job": row.job,
+        "function": row.function,
+        "scalar": "f32",
+        "timed": volumes.timed,
+        "rounds": volumes.rounds,
+        "ns_median": row.timing.nanoseconds,
+        "time_ratio": row.timing.ratio,
+    })
 }
 
 /// The paper's table: a row an algorithm, tier and scalar type, then a row a sample

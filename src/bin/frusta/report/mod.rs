@@ -22,8 +22,8 @@ use clap::Args;
 use data::Report;
 use files::Folder;
 use frusta::report::{
-    Everyday, PaperTable, Survey, SurveyOptions, SurveyTable, everyday, everyday_rounds,
-    paper_rounds, paper_table, survey,
+    Everyday, PaperTable, Survey, SurveyOptions, SurveyTable, VolumePlan, VolumeSurvey, everyday,
+    everyday_rounds, paper_rounds, paper_table, survey, volumes,
 };
 use frusta::samples::Family;
 use machine::Machine;
@@ -96,12 +96,19 @@ const PEERS: &str = "frusta-peers/1";
 /// bar.
 const PAPER_ROUND: u64 = 150;
 
+/// How many hard volumes weigh as much as one step of the survey's.
+const VOLUMES_A_STEP: u64 = 4;
+
 /// How many everyday segments weigh as much as one step of the survey's.
 const EVERYDAY_STEP: u64 = 256;
+
+/// Cases of a family for each of its hard volumes, and what of them is tried at most.
+const CASES_A_VOLUME: u64 = 16;
 
 /// What is measured, without what is left to default.
 struct Plan {
     survey: SurveyOptions,
+    volumes: VolumePlan,
     repeats: u32,
     /// Everyday segments of each mix.
     segments: u32,
@@ -114,6 +121,8 @@ pub(crate) struct Measured {
     pub(crate) survey: Survey,
     /// Times on everyday segments.
     pub(crate) everyday: Everyday,
+    /// Boxes, balls and batches.
+    pub(crate) volumes: VolumeSurvey,
     /// The paper's table.
     pub(crate) paper: PaperTable,
 }
@@ -123,6 +132,7 @@ impl Measured {
     fn exact_is_right(&self) -> bool {
         self.survey.exact_is_right()
             && self.everyday.exact_is_right()
+            && self.volumes.is_right()
             && self.paper.exact_is_right()
     }
 }
@@ -134,19 +144,29 @@ impl Plan {
         } else {
             [60_000, 61, 100_000, 131_072]
         };
-        Self {
-            survey: SurveyOptions {
-                families: if args.families.is_empty() {
-                    Family::ALL.to_vec()
-                } else {
-                    distinct(&args.families)
-                },
-                cases: args.cases.unwrap_or(u64::from(cases)),
-                seed: args.seed,
-                rounds: args.rounds.unwrap_or(rounds),
-                threads: args.threads.map_or_else(crate::cores, usize::from),
-                ..SurveyOptions::default()
+        let survey = SurveyOptions {
+            families: if args.families.is_empty() {
+                Family::ALL.to_vec()
+            } else {
+                distinct(&args.families)
             },
+            cases: args.cases.unwrap_or(u64::from(cases)),
+            seed: args.seed,
+            rounds: args.rounds.unwrap_or(rounds),
+            threads: args.threads.map_or_else(crate::cores, usize::from),
+            ..SurveyOptions::default()
+        };
+        Self {
+            volumes: VolumePlan {
+                families: survey.families.clone(),
+                cases: survey.cases.div_ceil(CASES_A_VOLUME),
+                seed: survey.seed,
+                threads: survey.threads,
+                boxes: 8 * survey.cases,
+                timed: args.everyday.unwrap_or(segments) as usize,
+                rounds: survey.rounds,
+            },
+            survey,
             repeats: args.repeat.unwrap_or(repeats),
             segments: args.everyday.unwrap_or(segments),
         }
@@ -181,11 +201,13 @@ impl Plan {
         let bar = progress_bar(
             self.survey.steps()
                 + everyday_round * everyday_rounds(rounds)
+                + self.volumes.steps() / VOLUMES_A_STEP
                 + PAPER_ROUND * paper_rounds(self.repeats),
         );
         let measured = Measured {
             survey: survey(&self.survey, &|steps| bar.inc(steps)),
             everyday: everyday(self.segments as usize, rounds, || bar.inc(everyday_round)),
+            volumes: volumes(&self.volumes, &|steps| bar.inc(steps / VOLUMES_A_STEP)),
             paper: paper_table(self.repeats, || bar.inc(PAPER_ROUND)),
         };
         bar.finish_and_clear();
@@ -262,9 +284,10 @@ fn tables(page: &Page<'_>, out: Option<&Path>) -> String {
     let Measured {
         survey,
         everyday,
+        volumes,
         paper,
     } = page.measured;
-    let mut text = format!("{}\n{everyday}\n{paper}", SurveyTable(survey));
+    let mut text = format!("{}\n{everyday}\n{volumes}\n{paper}", SurveyTable(survey));
     text += &format!("\n{cpu}, {cores} cores, {os} {arch}, {simd}; Rust {rustc}");
     text += &format!("\n{:.0} s; to repeat:\n{}\n", page.seconds, page.command);
     if let Some(out) = out {

@@ -5,6 +5,7 @@
 //! axes     logarithmic axes                   marks    shapes and colours
 //! panel    a family's panel, the overview     worst    which cases are drawn
 //! everyday times on everyday segments         peers    other libraries
+//! volumes  boxes, balls and batches
 //! tables   most tables                        style    the style sheet, the script
 //! text     what stands between them
 //! ```
@@ -18,6 +19,7 @@ mod style;
 mod tables;
 mod text;
 mod totals;
+mod volumes;
 mod words;
 mod worst;
 

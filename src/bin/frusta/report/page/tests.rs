@@ -5,7 +5,8 @@ use crate::report::Measured;
 use crate::report::machine::Machine;
 use crate::report::omitted::{Omission, omissions};
 use frusta::report::{
-    SurveyAlgorithm, SurveyOptions, SurveyTier, Tier, everyday, paper_table, survey,
+    SurveyAlgorithm, SurveyOptions, SurveyTier, Tier, VolumePlan, everyday, paper_table, survey,
+    volumes,
 };
 use frusta::samples::{Family, Mix};
 use resvg::usvg::roxmltree::{Document, Node};
@@ -25,9 +26,19 @@ fn measure() -> Measured {
         timed: 4,
         ..SurveyOptions::default()
     };
+    let plan = VolumePlan {
+        families: vec![Family::Random],
+        cases: 20,
+        seed: 1,
+        threads: 1,
+        boxes: 300,
+        timed: 300,
+        rounds: 1,
+    };
     Measured {
         survey: survey(&options, &|_| {}),
         everyday: everyday(300, 1, || {}),
+        volumes: volumes(&plan, &|_| {}),
         paper: paper_table(1, || {}),
     }
 }

@@ -4,7 +4,7 @@ use super::marks::{colour, mark};
 use super::panel::{KEY, by_family, overview, panel};
 use super::totals::Total;
 use super::words::{count, figure, percent};
-use super::{everyday, peers, style, tables, worst};
+use super::{everyday, peers, style, tables, volumes, worst};
 use crate::failure::Failure;
 use crate::picture::Theme;
 use crate::replay;
@@ -20,6 +20,7 @@ pub(super) fn page(page: &Page<'_>) -> Result<String, Failure> {
     let body = html! {
         (headline(page.measured))
         (everyday::section(&page.measured.everyday))
+        (volumes::section(&page.measured.volumes))
         (how_to_read())
         (all_families(page))
         (panels(page))
@@ -126,7 +127,7 @@ fn contents() -> Markup {
     html! {
         nav {
             @for (id, name) in [
-                ("everyday", "everyday segments"), ("read", "how to read a panel"),
+                ("everyday", "everyday segments"), ("volumes", "boxes and balls"), ("read", "how to read a panel"),
                 ("overview", "all families"), ("panels", "panels"), ("worst", "worst cases"), ("tables", "tables"), ("paper", "the paper's table"),
                 ("peers", "other libraries"), ("bias", "our bias"), ("omitted", "left out"),
                 ("made", "how it was made"),

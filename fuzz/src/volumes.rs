@@ -1,0 +1,192 @@
+//! Volumes made of a case's segment, against integers; and batches against one at a time.
+
+use frusta::batch::{
+    BoxArrays, BoxSet, Boxes, ContainmentMasks, RelativeBoxes, SegmentArrays, SegmentIntervals,
+    Segments,
+};
+use frusta::oracle::Oracle;
+use frusta::{
+    Aabb, Class, Containment, Culler, Frustum, Obb, Real, Segment, Sphere, Vec3, Volume,
+    VolumeErrorAt,
+};
+
+/// Everything about a frustum and the volumes that a segment suggests.
+pub(crate) fn check(frustum: &Frustum, segment: &Segment<f64>) {
+    let culler = Culler::new(frustum);
+    let oracle = Oracle::new(frustum);
+    let boxes = boxes(segment);
+    for volume in boxes
+        .iter()
+        .map(|b| Volume::from(*b))
+        .chain(others(segment))
+    {
+        check_volume(&culler, &oracle, volume);
+    }
+    check_exact(&culler, &oracle, &boxes);
+    let singles = self::boxes(&in_singles(segment));
+    check_boxes(&culler, &boxes);
+    check_boxes(&culler, &singles);
+    check_relative(&culler, segment.start, &boxes);
+    check_segments(&culler, segment);
+    check_segments(&culler, &in_singles(segment));
+}
+
+fn in_singles(segment: &Segment<f64>) -> Segment<f32> {
+    let [a, b] = [segment.start, segment.end].map(Vec3::<f32>::from_f64);
+    Segment::new(a, b)
+}
+
+/// What it spans, its ends, and what is none where the segment goes down.
+fn boxes<T: Real>(segment: &Segment<T>) -> Vec<Aabb<T>> {
+    let Segment { start, end } = *segment;
+    let mut all = vec![Aabb::new(start, start), Aabb::new(end, end)];
+    all.extend(Aabb::around([start, end]));
+    if segment.start.x.to_f64().to_bits() % 8 == 1 {
+        all.push(Aabb::new(start, end));
+    }
+    all
+}
+
+/// Balls about one end that reach as far as a coordinate of the other, and boxes along it.
+fn others(segment: &Segment<f64>) -> Vec<Volume> {
+    let d = segment.end - segment.start;
+    let mut all: Vec<Volume> = [d.x, d.y, d.z]
+        .map(|r| Sphere::new(segment.start, r.abs()).into())
+        .into();
+    let half = Vec3::new(d.y, d.z, d.x) * 0.5;
+    let axes = [d * 0.25, Vec3::new(-d.y, d.x, 0.0), half];
+    all.push(Obb::new(segment.end, axes).into());
+    all
+}
+
+fn check_volume(culler: &Culler, oracle: &Oracle, volume: Volume) {
+    let found = culler.classify(volume);
+    assert_eq!(found.is_ok(), volume.check().is_ok(), "{volume:?}");
+    if let Ok(found) = found {
+        let frustum = culler.frustum();
+        assert_eq!(found, oracle.classify(&volume), "{volume:?}\n{frustum:?}");
+    }
+}
+
+/// Separating axes.
+fn check_exact(culler: &Culler, oracle: &Oracle, boxes: &[Aabb<f64>]) {
+    for volume in boxes.iter().filter(|b| b.check().is_ok()) {
+        let found = culler.classify_exact(*volume).expect("a box");
+        let meets = oracle.intersects(&(*volume).into());
+        let said = (found, volume, culler.frustum());
+        assert_eq!(found != Containment::Outside, meets, "{said:?}");
+    }
+}
+
+/// Long enough for every place in a register, and for more than a block at times.
+fn repeated<V: Clone>(some: &[V]) -> Vec<V> {
+    let length = if some.len() % 2 == 0 {
+        530
+    } else {
+        9 + some.len()
+    };
+    some.iter().cycle().take(length).cloned().collect()
+}
+
+fn check_boxes<T: Real>(culler: &Culler, some: &[Aabb<T>]) {
+    let boxes = repeated(some);
+    let expected: Result<Vec<Containment>, VolumeErrorAt> = (boxes.iter().enumerate())
+        .map(|(index, b)| {
+            culler
+                .classify(*b)
+                .map_err(|error| VolumeErrorAt { index, error })
+        })
+        .collect();
+    let column = |of: fn(&Aabb<T>) -> T| -> Vec<T> { boxes.iter().map(of).collect() };
+    let low = [
+        column(|b| b.min.x),
+        column(|b| b.min.y),
+        column(|b| b.min.z),
+    ];
+    let high = [
+        column(|b| b.max.x),
+        column(|b| b.max.y),
+        column(|b| b.max.z),
+    ];
+    let arrays = BoxArrays {
+        min: low.each_ref().map(Vec::as_slice),
+        max: high.each_ref().map(Vec::as_slice),
+    };
+    let set = BoxSet::new(boxes.iter().copied());
+    assert_eq!(set.is_ok(), expected.is_ok());
+    let mut lots = vec![Boxes::from(arrays), Boxes::from(&boxes)];
+    lots.extend(set.iter().map(Boxes::from));
+    let (mut masks, mut list, mut classes) = (ContainmentMasks::default(), vec![], vec![]);
+    for lot in lots {
+        let done = [
+            culler.mask_boxes(lot, &mut masks),
+            culler.visible_boxes(lot, &mut list),
+            culler.classify_boxes(lot, &mut classes),
+        ];
+        match &expected {
+            Err(error) => {
+                let told = done.map(|done| done.map_err(|e| e.index));
+                assert_eq!(told, [Err(error.index); 3]);
+                assert!(masks.is_empty() && list.is_empty() && classes.is_empty());
+            }
+            Ok(expected) => {
+                assert!(done.iter().all(Result::is_ok), "{done:?}");
+                assert_eq!(&classes, expected, "{some:?}\n{:?}", culler.frustum());
+                let told = (0..expected.len()).map(|i| masks.get(i));
+                assert!(told.eq(expected.iter().map(|c| Some(*c))));
+                assert!(masks.visible().eq(list.iter().map(|&i| i as usize)));
+            }
+        }
+    }
+}
+
+/// In singles relative to an anchor, which decides nothing.
+fn check_relative(culler: &Culler, anchor: Vec3<f64>, boxes: &[Aabb<f64>]) {
+    if let Ok(relative) = RelativeBoxes::new(anchor, &repeated(boxes)) {
+        let mut list = Vec::new();
+        culler.visible_relative(&relative, &mut list);
+        let seen = |b: &Aabb<f64>| culler.classify(*b) != Ok(Containment::Outside);
+        let expected = relative.boxes().iter().enumerate();
+        let expected = expected.filter_map(|(i, b)| seen(b).then_some(i));
+        assert!(expected.eq(list.iter().map(|&i| i as usize)), "{boxes:?}");
+    }
+}
+
+/// Intervals against single clips, to the bit.
+fn check_segments<T: Real>(culler: &Culler, segment: &Segment<T>) {
+    let Segment { start, end } = *segment;
+    let segments = [*segment, Segment::new(end, start), Segment::new(end, end)];
+    let segments = repeated(&segments);
+    let column = |of: fn(&Segment<T>) -> T| -> Vec<T> { segments.iter().map(of).collect() };
+    let starts = [
+        column(|s| s.start.x),
+        column(|s| s.start.y),
+        column(|s| s.start.z),
+    ];
+    let ends = [
+        column(|s| s.end.x),
+        column(|s| s.end.y),
+        column(|s| s.end.z),
+    ];
+    let arrays = SegmentArrays {
+        start: starts.each_ref().map(Vec::as_slice),
+        end: ends.each_ref().map(Vec::as_slice),
+    };
+    let mut intervals = SegmentIntervals::default();
+    for lot in [Segments::from(arrays), Segments::from(&segments)] {
+        let done = culler.clip_intervals(lot, &mut intervals);
+        let first = segments.iter().position(|s| s.check_finite().is_err());
+        assert_eq!(done.as_ref().err().map(|e| e.index), first);
+        assert_eq!(
+            intervals.len(),
+            if first.is_some() { 0 } else { segments.len() }
+        );
+        for (segment, found) in segments.iter().zip(intervals.iter()) {
+            let clip = culler.frustum().clip_segment(segment).expect("finite");
+            let part = clip.part.map(|p| (clip.class, p.entry.t, p.exit.t));
+            let expected = part.unwrap_or((Class::Outside, T::ONE, T::ZERO));
+            let said = (segment, culler.frustum());
+            assert_eq!(format!("{found:?}"), format!("{expected:?}"), "{said:?}");
+        }
+    }
+}
