@@ -1,7 +1,10 @@
 //! Batches against one volume at a time, at every vector width.
 
 use super::*;
+use crate::clip::Class;
 use crate::frustum::Frustum;
+use crate::frustum::{Direction, EndRect, Shape};
+use crate::math::{Pose, Rect};
 use crate::math::{Segment, Vec3};
 use crate::samples::{BLOCK, Family};
 use crate::volume::Rows;
@@ -105,7 +108,10 @@ fn with_layouts<T: Real>(boxes: &[Aabb<T>], mut with: impl FnMut(Boxes<'_, T>)) 
         min: min.each_ref().map(Vec::as_slice),
         max: max.each_ref().map(Vec::as_slice),
     }));
-    with(Boxes::from(&BoxSet::new(boxes.iter().copied()).unwrap()));
+    // What is none is not let in.
+    if let Ok(set) = BoxSet::new(boxes.iter().copied()) {
+        with(Boxes::from(&set));
+    }
 }
 
 #[test]
@@ -282,4 +288,38 @@ fn relative_boxes_are_classified_as_their_doubles() {
     assert!(wrong.to_string().contains("anchor"), "{wrong}");
     let empty = Aabb::new([1.0; 3], [0.0; 3]);
     assert!(RelativeBoxes::new([0.0; 3], &[empty]).is_err());
+}
+
+/// Found by fuzzing: where there is no far face one stood at 2^90, or 2^900 for doubles.
+#[test]
+fn an_infinite_frustum_ends_nowhere() {
+    let near = EndRect::new(1.0, -1.0, 1.0, -1.0, 1.0);
+    let shape = Shape::Infinite {
+        near,
+        slopes: Rect::new(-1.0, 1.0, -1.0, 1.0),
+        direction: Direction::PlusZ,
+    };
+    let culler = Culler::new(&Frustum::new(Pose::IDENTITY, shape).unwrap());
+    fn check<T: Real>(culler: &Culler, far: f64) {
+        let at = |x: f64, y: f64, z: f64| Vec3::<T>::from_f64(Vec3::new(x, y, z));
+        let boxes = [Aabb::new(at(0.0, 0.0, far / 2.0), at(0.0, 0.0, far)); 3];
+        let spheres = [Sphere::new(at(0.0, 0.0, far), T::from_f64(far / 8.0)); 3];
+        let mut classes = Vec::new();
+        culler.classify_boxes(&boxes[..], &mut classes).unwrap();
+        assert_eq!(classes, [Containment::Inside; 3]);
+        culler.classify_spheres(&spheres[..], &mut classes).unwrap();
+        assert_eq!(classes, [Containment::Inside; 3]);
+        let segments = [Segment::new(at(0.0, 0.0, 0.0), at(0.0, 0.0, far)); 3];
+        let mut intervals = SegmentIntervals::default();
+        culler
+            .clip_intervals(&segments[..], &mut intervals)
+            .unwrap();
+        assert_eq!(intervals.classes(), [Class::Cross; 3]);
+    }
+    for far in [1e3, 1e27, 1e28, 1e35] {
+        check::<f32>(&culler, far);
+    }
+    for far in [1e3, 1e28, 1e270, 1e272, 1e300] {
+        check::<f64>(&culler, far);
+    }
 }

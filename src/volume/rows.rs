@@ -24,7 +24,7 @@ pub(crate) struct Row<T> {
 #[derive(Clone, Debug)]
 pub(crate) struct Rows<T> {
     /// The near face, and the far one's offset: its normal is the negative of the near
-    /// one's. As far as can be where there is no far face.
+    /// one's. Infinite where there is no far face.
     pub(crate) near: Row<T>,
     pub(crate) far: T,
     pub(crate) sides: [Row<T>; 4],
@@ -116,7 +116,9 @@ impl<T: Real> Rows<T> {
         };
         Self {
             near: ends.first().map_or(nothing, row),
-            far: ends.get(1).map_or(T::from_f64(most), |h| row(h).offset),
+            far: ends
+                .get(1)
+                .map_or(T::from_f64(f64::INFINITY), |h| row(h).offset),
             sides: rows,
             factor: T::from_f64(8.0 * u),
             constant,
