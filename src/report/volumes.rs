@@ -6,7 +6,7 @@
 //!
 //! # False accepts
 //! A test face by face says too often that a box crosses: one beyond an edge is outside of no
-//! face. Boxes of up to a size, in and about a camera's frustum; how many of those that the
+//! face. Boxes of up to a size, in and about a turned camera's frustum; how many of those that the
 //! faces let pass the exact test takes out. Shares depend on where boxes are put: here
 //! evenly where a box of that size can touch the frustum's bounding box.
 //!
@@ -18,7 +18,7 @@ use super::turns::{Timing, Turns};
 use super::verify_volumes::{VolumeKind, VolumeTally, verify_volumes};
 use crate::batch::{BoxArrays, BoxSet, ContainmentMasks, SegmentArrays, SegmentIntervals};
 use crate::batch::{SphereArrays, Spheres};
-use crate::frustum::{EndRect, Frustum, Shape};
+use crate::frustum::{Camera, FarCorners, Frustum, Projection};
 use crate::math::{Pose, Segment, Vec3};
 use crate::samples::{Family, Mix, Random};
 use crate::volume::{Aabb, Containment, Culler, Sphere};
@@ -166,14 +166,23 @@ pub fn volumes(plan: &VolumePlan, on_step: &(dyn Fn(u64) + Sync)) -> VolumeSurve
     }
 }
 
-/// A square view from 1 to 100.
+/// As far as is seen in these views.
+const FAR: f64 = 100.0;
+
+/// A square view from 1 to 100, along none of the axes, which boxes lie along: as cameras do.
 fn view(field_of_view: f64) -> Option<Frustum> {
-    let end = |z: f64| {
-        let reach = libm::tan(field_of_view / 2.0) * z;
-        EndRect::new(z, -reach, reach, -reach, reach)
+    let camera = Camera {
+        eye: Vec3::default(),
+        target: Vec3::new(3.0, 2.0, 1.0),
+        up: Vec3::new(0.0, 0.0, 1.0),
+        projection: Projection::Perspective {
+            fovy: field_of_view,
+            aspect: 1.0,
+        },
+        near: 1.0,
+        far: FAR,
     };
-    let (near, far) = (end(1.0), end(100.0));
-    Frustum::new(Pose::IDENTITY, Shape::Finite { near, far }).ok()
+    camera.frustum().ok()
 }
 
 /// A box of up to a half extent, evenly where one can touch the frustum's bounds.
@@ -185,24 +194,24 @@ fn any_box(random: &mut Random, [low, high]: [Vec3<f64>; 2], most: f64) -> Aabb<
     Aabb::new(middle - half, middle + half)
 }
 
-/// The corners of what bounds a square view.
-fn bounds(frustum: &Frustum) -> [Vec3<f64>; 2] {
-    let far = frustum.shape().far().unwrap_or(frustum.shape().near());
-    let rect = far.rect;
-    [
-        Vec3::new(rect.left, rect.bottom, frustum.shape().near().z),
-        Vec3::new(rect.right, rect.top, far.z),
-    ]
+/// The corners of what bounds a frustum.
+fn bounds(frustum: &Frustum) -> Option<[Vec3<f64>; 2]> {
+    let corners = frustum.corners();
+    let FarCorners::Points(far) = corners.far else {
+        return None;
+    };
+    let Aabb { min, max } = Aabb::around(corners.near.into_iter().chain(far))?;
+    Some([min, max])
 }
 
 fn false_accepts(size: f64, field_of_view: f64, plan: &VolumePlan) -> Option<FalseAccepts> {
     let frustum = view(field_of_view)?;
     let culler = Culler::new(&frustum);
-    let bounds = bounds(&frustum);
+    let bounds = bounds(&frustum)?;
     let mut random = Random::new(&[plan.seed, size.to_bits(), field_of_view.to_bits()]);
     let (mut accepted, mut falsely) = (0, 0);
     for _ in 0..plan.boxes {
-        let volume = any_box(&mut random, bounds, size * bounds[1].z);
+        let volume = any_box(&mut random, bounds, size * FAR);
         if culler.classify(volume) != Ok(Containment::Outside) {
             accepted += 1;
             let is_apart = culler.classify_exact(volume) == Ok(Containment::Outside);
@@ -248,13 +257,10 @@ impl Scene {
     fn new(plan: &VolumePlan) -> Option<Self> {
         let frustum = Frustum::new(Pose::IDENTITY, Mix::shape()).ok()?;
         let mut random = Random::new(&[plan.seed, 3]);
-        let far = frustum.shape().far()?;
-        // The mixes look along -z.
-        let low = Vec3::new(far.rect.left, far.rect.bottom, far.z);
-        let high = Vec3::new(far.rect.right, far.rect.top, 0.0);
-        let most = 0.02 * far.z.abs();
+        let bounds = bounds(&frustum)?;
+        let most = 0.02 * (bounds[1].z - bounds[0].z);
         let mut single = || {
-            let volume = any_box(&mut random, [low, high], most);
+            let volume = any_box(&mut random, bounds, most);
             Aabb::new(
                 Vec3::<f32>::from_f64(volume.min),
                 Vec3::<f32>::from_f64(volume.max),

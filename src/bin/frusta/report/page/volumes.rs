@@ -11,16 +11,16 @@ pub(super) fn section(volumes: &VolumeSurvey) -> Markup {
         h2 #volumes { "Boxes and balls" }
         p {
             "What a program asks for each thing that it might draw: is it outside of the frustum, inside, or \
-             neither? Of each family " (count(cases)) " hard volumes in all were asked about alone and in batches, \
-             at least half of them within 4 ulp of touching, and held against integers."
+             neither? " (count(cases)) " hard volumes of the families were asked about alone and in batches, at \
+             least half of them within 4 ulp of touching, and held against integers."
         }
         (errors(&volumes.errors))
         h3 { "What faces let pass" }
         p {
             "Asked face by face, a box beyond an edge or a corner of the frustum is outside of none. The exact \
              test, by separating axes, finds it. The larger the boxes and the narrower the view, the more it \
-             takes out: boxes of up to a half extent, in parts of the far distance, evenly where one can touch \
-             the frustum\'s bounds."
+             takes out: boxes along the axes of up to a half extent, in parts of the far distance, evenly where \
+             one can touch the frustum\'s bounds; the camera is turned."
         }
         (accepts(&volumes.accepts))
         h3 { "Times" }
