@@ -201,7 +201,7 @@ fn timeless(mut json: Value) -> Value {
     for key in ["seconds", "paper"] {
         json[key] = Value::Null;
     }
-    for list in ["rows", "everyday"] {
+    for list in ["rows", "everyday", "volume_times"] {
         for row in json[list].as_array_mut().unwrap() {
             (row["ns_median"], row["time_ratio"]) = (Value::Null, Value::Null);
         }
