@@ -93,7 +93,7 @@ impl<T: Real> BoxSet<T> {
     /// Appends what is a box, but that numbers may be infinite: nothing is certain about its
     /// block then.
     pub(super) fn append(&mut self, volume: Aabb<T>) {
-        if self.len % BLOCK == 0 {
+        if self.len.is_multiple_of(BLOCK) {
             self.blocks.push([[[T::ZERO; 8]; 6]; BLOCK / 8]);
             self.largest.push(T::ZERO);
         }
@@ -177,7 +177,7 @@ impl<'a, T: Real> BoxBlocks<'a, T> {
     /// Some of them, from the beginning of a block on.
     #[cfg(feature = "parallel")]
     pub(super) fn part(&self, range: std::ops::Range<usize>) -> Self {
-        debug_assert!(range.start % BLOCK == 0);
+        debug_assert!(range.start.is_multiple_of(BLOCK));
         let first = range.start / BLOCK;
         Self {
             len: range.len(),
