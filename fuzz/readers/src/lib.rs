@@ -8,7 +8,11 @@
 //! itself minds the time.
 
 #![cfg(fuzzing)]
-#![allow(dead_code, unused_imports, reason = "the command uses more of these files")]
+#![allow(
+    dead_code,
+    unused_imports,
+    reason = "the command uses more of these files"
+)]
 
 #[path = "../../../src/bin/frusta/failure.rs"]
 mod failure;
