@@ -9,7 +9,7 @@
 //! ```text
 //! relative boxes in f64, asked about in f32 relative to a place near them
 //! boxes    axis-aligned boxes
-//! box_set  boxes that are kept: found to be boxes once, and asked about in half of the time
+//! box_set  boxes that are kept: found to be boxes once, asked about fastest
 //! spheres  balls
 //! segments class and parameters
 //! words    512 volumes at a time; what is not certain one by one
