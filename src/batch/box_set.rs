@@ -127,13 +127,19 @@ impl<T: Real> BoxSet<T> {
     fn put(&mut self, index: usize, Aabb { min, max }: Aabb<T>) {
         let (block, place) = (index / BLOCK, index % BLOCK);
         let numbers = [min.x, min.y, min.z, max.x, max.y, max.z];
+        let largest = &mut self.largest[block];
+        let mut was_largest = false;
         for (eight, number) in self.blocks[block][place / 8].iter_mut().zip(numbers) {
+            was_largest |= eight[place % 8].abs() >= *largest;
             eight[place % 8] = number;
-            // It stays where a larger box was before: a bound all the same.
-            if number.abs() > self.largest[block] {
-                self.largest[block] = number.abs();
-            }
         }
+        let greater = |a: T, b: &T| if b.abs() > a { b.abs() } else { a };
+        *largest = if was_largest {
+            let all = self.blocks[block].as_flattened().as_flattened();
+            all.iter().fold(T::ZERO, greater)
+        } else {
+            numbers.iter().fold(*largest, greater)
+        };
     }
 }
 

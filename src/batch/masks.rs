@@ -204,18 +204,18 @@ impl Sink for Numbers<'_> {
                 self.finish();
             }
             for (k, byte) in visible.to_le_bytes().into_iter().enumerate() {
-                let next = self.next + 8 * k as u32;
+                let next = self.next.wrapping_add(8 * k as u32);
                 let places = &PLACES[usize::from(byte)];
                 let rest = self.waiting.get_mut(self.len..);
                 if let Some(slots) = rest.and_then(|rest| rest.first_chunk_mut::<8>()) {
                     for (slot, place) in slots.iter_mut().zip(places) {
-                        *slot = next + u32::from(*place);
+                        *slot = next.wrapping_add(u32::from(*place));
                     }
                 }
                 self.len += byte.count_ones() as usize;
             }
         }
-        self.next += count as u32;
+        self.next = self.next.wrapping_add(count as u32);
     }
 
     #[inline(always)]

@@ -4,7 +4,7 @@
 //! [`Frustum::clip_segment`](crate::Frustum::clip_segment), for every input, which they are certain of
 //! in the batch's own type or get from it. They go to the caller's
 //! buffers, which are used again: nothing is allocated once they are large enough, but
-//! where big integers are needed.
+//! where big integers are needed and, by threads (feature `parallel`), a little for each piece.
 //!
 //! ```text
 //! relative boxes in f64, asked about in f32 relative to a place near them

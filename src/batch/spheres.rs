@@ -191,7 +191,8 @@ where
         let [x, y, z, r] = ball::<S, V, T, N>(simd, block, group);
         most = most.max(x.abs().max(y.abs()).max(z.abs()));
         radius = radius.max(r);
-        valid &= r.simd_ge(zero);
+        // A maximum may forget what it was when it meets NaN.
+        valid &= r.simd_ge(zero) & x.simd_eq(x) & y.simd_eq(y) & z.simd_eq(z);
     }
     let size = most + most + most + radius;
     let largest = size.to_array().into_iter();

@@ -323,3 +323,50 @@ fn an_infinite_frustum_ends_nowhere() {
         check::<f64>(&culler, far);
     }
 }
+
+/// A maximum forgets an infinity when it meets NaN; the first ball that is none is told all the
+/// same.
+#[test]
+fn the_first_ball_that_is_none_is_told_when_nan_follows_infinity() {
+    let axes = [[1.0, 2.0, 2.0], [2.0, 1.0, -2.0], [2.0, -2.0, 1.0]].map(Vec3::from);
+    let pose = Pose {
+        origin: Vec3::default(),
+        axes,
+    };
+    let near = EndRect::new(1.0, -1.0, 1.0, -1.0, 1.0);
+    let far = EndRect::new(3.0, -3.0, 3.0, -3.0, 3.0);
+    let culler = Culler::new(&Frustum::new(pose, Shape::Finite { near, far }).unwrap());
+    let infinite = Sphere::new([f32::INFINITY, 0.0, 2.0], 1.0);
+    let nan = Sphere::new([0.0, 0.0, f32::NAN], 1.0);
+    for apart in [1, 8, 16] {
+        let mut all = vec![Sphere::new([0.0, 0.0, 2.0], 0.5); 20];
+        (all[1], all[1 + apart]) = (infinite, nan);
+        let error = culler.classify_spheres(&all, &mut Vec::new()).unwrap_err();
+        assert_eq!(error.index, 1, "{apart}");
+    }
+}
+
+/// A box that was far away for a while leaves nothing behind.
+#[test]
+fn a_set_forgets_how_far_away_a_box_was() {
+    let at = |x: f32| Aabb::new([x, 0.1, 1.5], [x + 0.1, 0.2, 1.75]);
+    let mut set = BoxSet::new((0..700).map(|i| at(0.01 * i as f32))).unwrap();
+    let near = EndRect::new(1.0, -1.0, 1.0, -1.0, 1.0);
+    let far = EndRect::new(3.0, -3.0, 3.0, -3.0, 3.0);
+    let shape = Shape::Finite { near, far };
+    let culler = Culler::new(&Frustum::new(Pose::IDENTITY, shape).unwrap());
+    let unsettled = |set: &BoxSet<f32>| {
+        let mut counts = VolumeCounts::default();
+        culler
+            .classify_boxes_counted(set, &mut Vec::new(), &mut counts)
+            .unwrap();
+        counts.unsettled
+    };
+    let before = unsettled(&set);
+    let own = set.get(600).unwrap();
+    set.set(600, at(1e30)).unwrap();
+    assert!(unsettled(&set) > 180);
+    set.set(600, own).unwrap();
+    assert_eq!(unsettled(&set), before);
+    assert!(before < 5, "{before}");
+}

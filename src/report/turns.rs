@@ -7,9 +7,10 @@
 /// A median time.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Timing {
-    /// In times of textbook Liang-Barsky in plain arithmetic: larger is slower.
+    /// In times of textbook Liang-Barsky in plain arithmetic, or of the first of a job's
+    /// functions: larger is slower.
     pub ratio: f64,
-    /// In nanoseconds a segment.
+    /// In nanoseconds a segment, or a volume.
     pub nanoseconds: f64,
 }
 

@@ -64,7 +64,7 @@ impl VolumePlan {
     pub fn steps(&self) -> u64 {
         let tried = self.families.len() as u64 * VolumeKind::ALL.len() as u64 * self.cases;
         let timed = u64::from(self.rounds) * TIMED_STEP;
-        tried + VIEWS.len() as u64 * self.boxes / BOXES_STEP + timed
+        tried + VIEWS.len() as u64 * (self.boxes / BOXES_STEP) + timed
     }
 }
 

@@ -2,7 +2,7 @@
 //!
 //! # Idea
 //! ```text
-//! for each block of 512 segments:
+//! for each block of 256 segments:
 //!     triage      the values of all faces at both ends; what is outside of one, or
 //!                 inside of all, is settled; the numbers of the rest are queued, and
 //!                 their coordinates put side by side

@@ -45,7 +45,7 @@ pub(super) struct Planes<V> {
     constant: V,
     limit: V,
     /// What parameters are off beside what values are.
-    pub(super) rounding: V,
+    rounding: V,
     pub(super) zero: V,
     pub(super) one: V,
 }
@@ -124,6 +124,18 @@ impl<V: Copy> Planes<V> {
             threshold: size.mul_add(self.factor, self.constant),
             size,
         }
+    }
+
+    /// What a crossing's parameter is off at most, of the greatest reciprocal of a
+    /// difference of values.
+    #[inline(always)]
+    pub(super) fn error<S, T>(&self, values: &Values<V>, scales: V) -> V
+    where
+        S: Simd,
+        T: Real,
+        V: SimdFloat<S, Element = T>,
+    {
+        values.threshold.mul_add(scales, self.rounding)
     }
 
     /// Where the error bound holds: everywhere but at sizes near the largest number, and

@@ -358,7 +358,7 @@ impl Crossings {
             scales = scales.max((entering ^ leaving).select(scale.abs(), zero));
         }
         // What two parameters can be off, together.
-        let error = values.threshold.mul_add(scales, planes.rounding);
+        let error = planes.error::<S, T>(values, scales);
         let error = error + error;
         let overlap = entry + exit;
         let signs = nearest.simd_gt(values.threshold) & planes.covers::<S, T>(values);
