@@ -3,10 +3,10 @@
 #![cfg(feature = "report")]
 
 use frusta::report::{VolumeKind, VolumeTally, verify_volumes};
-use frusta::samples::{BLOCK, Family, hard_box, hard_obb, hard_sphere};
+use frusta::samples::{BLOCK, Family, Scene, hard_box, hard_obb, hard_sphere};
 use frusta::{
     Aabb, Containment, Culler, Face, FaceSet, Frustum, Obb, Pose, Shape, Sphere, Vec3, Volume,
-    VolumeError,
+    VolumeCounts, VolumeError,
 };
 
 #[test]
@@ -77,9 +77,86 @@ fn scaling_and_mirroring_change_nothing() {
                 let v = hard_sphere::<f64>(&scene, 5, number);
                 let large = Sphere::new(v.center * k, v.radius * k);
                 assert_eq!(scaled.classify(large), culler.classify(v));
+                assert_eq!(scaled.classify_exact(large), culler.classify_exact(v));
                 let flipped = Sphere::new(flip(v.center), v.radius);
                 assert_eq!(mirrored.classify(flipped), culler.classify(v));
+                assert_eq!(mirrored.classify_exact(flipped), culler.classify_exact(v));
+                let v = hard_obb::<f64>(&scene, 5, number);
+                let expected = culler.classify_exact(v);
+                let large = Obb::new(v.center * k, v.half_axes.map(|h| h * k));
+                assert_eq!(scaled.classify_exact(large), expected, "{family}: {v:?}");
+                let flipped = Obb::new(flip(v.center), v.half_axes.map(flip));
+                assert_eq!(
+                    mirrored.classify_exact(flipped),
+                    expected,
+                    "{family}: {v:?}"
+                );
+                let [a, b, c] = v.half_axes;
+                let renamed = Obb::new(v.center, [c, -a, b]);
+                assert_eq!(culler.classify_exact(renamed), expected, "{family}: {v:?}");
             }
+        }
+    }
+}
+
+/// What doubles settle, and what they leave to integers, both ways, of every kind.
+#[test]
+fn the_exact_test_reaches_every_stage() {
+    let kinds: [fn(&Scene, u64) -> Volume; 3] = [
+        |scene, n| hard_box::<f64>(scene, 9, n).into(),
+        |scene, n| hard_obb::<f64>(scene, 9, n).into(),
+        |scene, n| hard_sphere::<f64>(scene, 9, n).into(),
+    ];
+    for (kind, volume) in kinds.iter().enumerate() {
+        let mut found = [[0; 2]; 2];
+        for &family in Family::ALL {
+            for block in 0..3 {
+                let scene = family.scene(9, block);
+                let culler = Culler::new(scene.frustum());
+                for number in block * BLOCK..(block + 1) * BLOCK {
+                    let volume = volume(&scene, number);
+                    let (mut by_planes, mut all) = <[VolumeCounts; 2]>::default().into();
+                    let _ = culler.classify_counted(volume, &mut by_planes);
+                    let _ = culler.classify_exact_counted(volume, &mut all);
+                    if all.asked == 1 {
+                        let by_integers = all.filter_failures > by_planes.filter_failures;
+                        found[usize::from(by_integers)][all.false_accepts as usize] += 1;
+                    }
+                }
+            }
+        }
+        assert!(
+            found.as_flattened().iter().all(|&n| n > 50),
+            "{kind}: {found:?}"
+        );
+    }
+}
+
+/// A box along the axes is an oriented box, and a ball or a box of no size a point.
+#[test]
+fn the_same_set_has_the_same_exact_answer() {
+    for &family in Family::ALL {
+        let scene = family.scene(4, 1);
+        let culler = Culler::new(scene.frustum());
+        for number in 0..BLOCK {
+            let v = hard_box::<f64>(&scene, 4, number);
+            let oriented = Obb::from(v);
+            let Obb {
+                center: c,
+                half_axes: [x, y, z],
+            } = oriented;
+            let half = Vec3::new(x.x, y.y, z.z);
+            if (c - half, c + half) == (v.min, v.max)
+                && c + half - c == half
+                && c - (c - half) == half
+            {
+                let expected = culler.classify_exact(v);
+                assert_eq!(culler.classify_exact(oriented), expected, "{family}: {v:?}");
+            }
+            let at = hard_sphere::<f64>(&scene, 4, number).center;
+            let expected = culler.classify_exact(at);
+            assert_eq!(culler.classify_exact(Sphere::new(at, 0.0)), expected);
+            assert_eq!(culler.classify_exact(Obb::new(at, [[0.0; 3]; 3])), expected);
         }
     }
 }

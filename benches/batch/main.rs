@@ -130,7 +130,13 @@ fn segments_out_of_cache(rounds: usize) {
             let done = culler.clip_intervals(columns.range(0..MANY), &mut intervals);
             done.expect("finite");
         });
-        row(mix.name(), rounds, vec![("copy", copy), ("batch", batch)]);
+        let mut by_all = SegmentIntervals::default();
+        let threads = timed(MANY, || {
+            let done = culler.par_clip_intervals(columns.range(0..MANY), &mut by_all);
+            done.expect("finite");
+        });
+        let passes = vec![("copy", copy), ("batch", batch), ("by threads", threads)];
+        row(mix.name(), rounds, passes);
     }
 }
 

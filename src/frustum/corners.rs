@@ -49,15 +49,15 @@ impl Plane {
 }
 
 /// The exact inverse of a pose, over one denominator.
-struct Inverse {
+pub(crate) struct Inverse {
     /// Columns of the adjugate.
     columns: [Dyadic3; 3],
     origin_times_determinant: Dyadic3,
-    determinant: Dyadic,
+    pub(crate) determinant: Dyadic,
 }
 
 impl Inverse {
-    fn new(frustum: &Frustum) -> Self {
+    pub(crate) fn new(frustum: &Frustum) -> Self {
         let pose = frustum.pose();
         let [a, b, c] = pose.axes.map(exact);
         let columns = [cross(&b, &c), cross(&c, &a), cross(&a, &b)];
@@ -70,24 +70,23 @@ impl Inverse {
         }
     }
 
-    /// The vector with these frame coordinates, over the determinant.
-    fn numerators(&self, frame: [f64; 3]) -> Dyadic3 {
-        let q = frame.map(Dyadic::from);
+    /// The vector with these frame coordinates, times the determinant.
+    pub(crate) fn vector(&self, frame: &Dyadic3) -> Dyadic3 {
         std::array::from_fn(|i| {
-            let row = [0, 1, 2].map(|k| &self.columns[k][i] * &q[k]);
+            let row = [0, 1, 2].map(|k| &self.columns[k][i] * &frame[k]);
             &(&row[0] + &row[1]) + &row[2]
         })
     }
 
-    fn direction(&self, frame: [f64; 3]) -> Vec3<f64> {
-        let v = self.numerators(frame);
-        Vec3::from([0, 1, 2].map(|i| v[i].ratio(&self.determinant)))
+    /// The point with these frame coordinates, times the determinant.
+    pub(crate) fn point(&self, frame: &Dyadic3) -> Dyadic3 {
+        let (v, o) = (self.vector(frame), &self.origin_times_determinant);
+        [0, 1, 2].map(|i| &v[i] + &o[i])
     }
 
-    fn point(&self, frame: [f64; 3]) -> Vec3<f64> {
-        let v = self.numerators(frame);
-        let o = &self.origin_times_determinant;
-        Vec3::from([0, 1, 2].map(|i| (&v[i] + &o[i]).ratio(&self.determinant)))
+    /// What was multiplied by the determinant, each coordinate rounded once.
+    pub(crate) fn rounded(&self, times_determinant: &Dyadic3) -> Vec3<f64> {
+        Vec3::from([0, 1, 2].map(|i| times_determinant[i].ratio(&self.determinant)))
     }
 }
 
@@ -122,7 +121,12 @@ impl Frustum {
     #[must_use]
     pub fn corners(&self) -> Corners {
         let inverse = Inverse::new(self);
-        let end = |e: EndRect| around(e.rect).map(|[x, y]| inverse.point([x, y, e.z]));
+        let end = |e: EndRect| {
+            around(e.rect).map(|[x, y]| {
+                let corner = [x, y, e.z].map(Dyadic::from);
+                inverse.rounded(&inverse.point(&corner))
+            })
+        };
         let (near, far) = match *self.shape() {
             Shape::Finite { near, far } => (near, FarCorners::Points(end(far))),
             Shape::Infinite {
@@ -130,7 +134,10 @@ impl Frustum {
                 slopes,
                 direction,
             } => {
-                let along = |[x, y]: [f64; 2]| inverse.direction([x, y, direction.sign()]);
+                let along = |[x, y]: [f64; 2]| {
+                    let ray = [x, y, direction.sign()].map(Dyadic::from);
+                    inverse.rounded(&inverse.vector(&ray))
+                };
                 (near, FarCorners::Directions(around(slopes).map(along)))
             }
         };

@@ -1,4 +1,4 @@
-//! Exact vectors for constructing frusta.
+//! Exact vectors for constructing frusta and for volumes.
 //!
 //! A determinant, or a difference of far points, loses nothing; one rounding
 //! ends each computation. Used once a frustum, not once a segment, which is why
@@ -6,16 +6,16 @@
 //! first.
 
 use crate::exact::Number;
-pub(super) use crate::exact::dyadic::Dyadic;
+pub(crate) use crate::exact::dyadic::Dyadic;
 use crate::math::Vec3;
 use std::cmp::Ordering;
 
 /// Three exact coordinates.
-pub(super) type Dyadic3 = [Dyadic; 3];
+pub(crate) type Dyadic3 = [Dyadic; 3];
 
 /// Roundings to the nearest double, ties to even; infinite beyond the range,
 /// never -0.
-pub(super) trait Rounded {
+pub(crate) trait Rounded {
     /// The number itself.
     fn to_f64(&self) -> f64;
     /// `self * 2^shift`.
@@ -48,7 +48,7 @@ impl Rounded for Dyadic {
 }
 
 /// The exact coordinates of a point.
-pub(super) fn exact(v: Vec3<f64>) -> Dyadic3 {
+pub(crate) fn exact(v: Vec3<f64>) -> Dyadic3 {
     v.to_array().map(Dyadic::from)
 }
 
@@ -59,12 +59,12 @@ pub(super) fn difference(p: Vec3<f64>, q: Vec3<f64>) -> Dyadic3 {
 }
 
 /// The inner product.
-pub(super) fn dot(a: &Dyadic3, b: &Dyadic3) -> Dyadic {
+pub(crate) fn dot(a: &Dyadic3, b: &Dyadic3) -> Dyadic {
     &(&(&a[0] * &b[0]) + &(&a[1] * &b[1])) + &(&a[2] * &b[2])
 }
 
 /// The cross product.
-pub(super) fn cross(a: &Dyadic3, b: &Dyadic3) -> Dyadic3 {
+pub(crate) fn cross(a: &Dyadic3, b: &Dyadic3) -> Dyadic3 {
     let minor = |i: usize, j: usize| &(&a[i] * &b[j]) - &(&a[j] * &b[i]);
     [minor(1, 2), minor(2, 0), minor(0, 1)]
 }

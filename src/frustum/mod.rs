@@ -2,9 +2,9 @@
 
 pub(crate) mod boundary;
 mod camera;
-mod corners;
+pub(crate) mod corners;
 mod error;
-mod exact_vec;
+pub(crate) mod exact_vec;
 mod face;
 pub(crate) mod filter;
 mod independent;

@@ -2,8 +2,8 @@
 //!
 //! Boxes in `f64` and `f32`, oriented boxes and balls, at least half of them within 4 ulp of
 //! touching the frustum. Each is classified alone and, boxes and balls, in a batch: both must
-//! be what integers say, plane by plane; and a box's exact answer what separating axes in
-//! integers say. Blocks that share a frustum are dealt to the threads; counts do not depend
+//! be what integers say, plane by plane; and the exact answer what separating axes and distances
+//! in integers say. Blocks that share a frustum are dealt to the threads; counts do not depend
 //! on how many there are.
 
 use crate::math::Real;
@@ -63,7 +63,7 @@ pub struct VolumeTally {
     pub wrongly_outside: u64,
     /// Classified otherwise in a batch.
     pub wrong_in_batch: u64,
-    /// Boxes of which the exact answer is wrong.
+    /// Volumes of which the exact answer is wrong.
     pub wrong_exact: u64,
     /// What the answers needed.
     pub counts: VolumeCounts,
@@ -256,7 +256,21 @@ impl<'a> Bench<'a> {
         tally.wrong += u64::from(said != Ok(truth));
         let is_outside = said == Ok(Containment::Outside);
         tally.wrongly_outside += u64::from(is_outside && truth != Containment::Outside);
+        self.exactly(volume, truth, tally);
         truth
+    }
+
+    /// The exact test, of what lies so plane by plane.
+    fn exactly(&self, volume: Volume, by_planes: Containment, tally: &mut VolumeTally) {
+        let truth = match by_planes {
+            Containment::Crossing if !self.oracle.intersects(&volume) => Containment::Outside,
+            class => class,
+        };
+        let mut counts = VolumeCounts::default();
+        let said = self.culler.classify_exact_counted(volume, &mut counts);
+        tally.wrong_exact += u64::from(said != Ok(truth));
+        tally.counts.asked += counts.asked;
+        tally.counts.false_accepts += counts.false_accepts;
     }
 
     fn boxes<T: Real>(&self, boxes: impl Iterator<Item = Aabb<T>>) -> VolumeTally {
@@ -267,17 +281,6 @@ impl<'a> Bench<'a> {
             let truth = self.alone(volume.into(), &mut tally);
             let in_batch = classes.get(i).filter(|_| batch.is_ok());
             tally.wrong_in_batch += u64::from(in_batch != Some(&truth));
-            let exact = match truth {
-                Containment::Crossing if !self.oracle.intersects(&volume.into()) => {
-                    Containment::Outside
-                }
-                class => class,
-            };
-            let mut counts = VolumeCounts::default();
-            let said = self.culler.classify_exact_counted(volume, &mut counts);
-            tally.wrong_exact += u64::from(said != Ok(exact));
-            tally.counts.asked += counts.asked;
-            tally.counts.false_accepts += counts.false_accepts;
         }
         tally
     }

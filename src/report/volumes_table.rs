@@ -60,7 +60,7 @@ impl fmt::Display for VolumeSurvey {
 
 const LEGEND: &str = "
 wrong, outside  classes that are wrong; of these, called outside
-batch, exact    wrong classes in batches; wrong answers of the exact test of boxes
+batch, exact    wrong classes in batches; wrong answers of the exact test
 falsely         apart from the frustum, which the exact test finds
 times as fast   as one a call by the first function
 ";

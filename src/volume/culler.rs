@@ -19,7 +19,7 @@
 //! # Degenerate volumes
 //! A box of no size is a point, flat ones are rectangles and edges; nothing is divided.
 
-use super::apart::separators;
+use super::apart::Apart;
 use super::extent::{Extent, with_extent};
 use super::half_space::{HalfSpace, MOST, threshold};
 use super::rows::RowsPair;
@@ -29,7 +29,6 @@ use crate::exact::dyadic::Dyadic;
 use crate::frustum::boundary::boundary;
 use crate::frustum::{Face, FaceSet, Frustum};
 use crate::math::Vec3;
-use std::sync::OnceLock;
 
 /// A frustum made ready to be asked about volumes.
 ///
@@ -62,8 +61,8 @@ pub struct Culler {
     planes: Planes,
     /// The same for batches.
     rows: RowsPair,
-    /// Made when first asked for: see [`super::apart`].
-    separators: OnceLock<Box<[HalfSpace]>>,
+    /// For [`Culler::classify_exact`].
+    apart: Apart,
 }
 
 /// The rounded half spaces side by side.
@@ -161,7 +160,7 @@ impl Culler {
             planes: Planes::new(&half_spaces),
             rows: RowsPair::new(&half_spaces),
             half_spaces,
-            separators: OnceLock::new(),
+            apart: Apart::default(),
         }
     }
 
@@ -171,8 +170,8 @@ impl Culler {
         &self.frustum
     }
 
-    pub(super) fn separators(&self) -> &[HalfSpace] {
-        self.separators.get_or_init(|| separators(&self.frustum))
+    pub(super) fn apart(&self) -> &Apart {
+        &self.apart
     }
 
     pub(crate) fn half_spaces(&self) -> &[HalfSpace] {

@@ -176,8 +176,13 @@ impl HalfSpace {
 
     /// The square of the normal's length, exactly.
     pub(super) fn square(&self) -> Dyadic {
+        self.product(self)
+    }
+
+    /// The inner product of two normals, exactly.
+    pub(super) fn product(&self, other: &Self) -> Dyadic {
         (0..3).fold(Dyadic::from(0.0), |sum, j| {
-            &sum + &(&self.exact[j] * &self.exact[j])
+            &sum + &(&self.exact[j] * &other.exact[j])
         })
     }
 }

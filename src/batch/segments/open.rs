@@ -1,8 +1,8 @@
 //! What triage leaves open of a block, side by side.
 
 use super::queues::{BLOCK, Queue, ROOM};
+use crate::clip::Class;
 use crate::math::{Real, Segment, Vec3};
-use fearless_simd::f64x4;
 use fearless_simd::prelude::*;
 
 /// What of a block triage leaves open.
@@ -11,11 +11,14 @@ pub(super) struct Open<T> {
     pub(super) numbers: Queue,
     /// Their coordinates: starts, then ends.
     pub(super) coordinates: [[T; ROOM]; 6],
+    /// What is found of each.
+    pub(super) classes: [Class; ROOM],
+    pub(super) t0: [T; ROOM],
+    pub(super) t1: [T; ROOM],
     /// Places in these, by face, where an entry's and an exit's parameter is missing.
     pub(super) entries: [Queue; 6],
     pub(super) exits: [Queue; 6],
-    /// Places of what is outside all the same, and of what is not certain.
-    pub(super) outside: Queue,
+    /// Places of what is not certain.
     pub(super) unsure: Queue,
 }
 
@@ -24,9 +27,11 @@ impl<T: Real> Open<T> {
         Self {
             numbers: Queue::new(),
             coordinates: [[T::ZERO; ROOM]; 6],
+            classes: [Class::Outside; ROOM],
+            t0: [T::ZERO; ROOM],
+            t1: [T::ZERO; ROOM],
             entries: [const { Queue::new() }; 6],
             exits: [const { Queue::new() }; 6],
-            outside: Queue::new(),
             unsure: Queue::new(),
         }
     }
@@ -36,17 +41,32 @@ impl<T: Real> Open<T> {
         self.numbers.clear();
         self.entries.iter_mut().for_each(Queue::clear);
         self.exits.iter_mut().for_each(Queue::clear);
-        self.outside.clear();
         self.unsure.clear();
     }
 
-    /// Puts the coordinates side by side; beyond the last they repeat it, up to a whole
-    /// register.
+    /// Appends those of a register whose bit is set.
+    #[inline(always)]
+    pub(super) fn pack<S: Simd, V, const N: usize>(&mut self, ends: [[V; 3]; 2], open: V::Mask)
+    where
+        V: SimdFloat<S, Element = T>,
+    {
+        let to = self.numbers.len();
+        let to = to..to + N;
+        let [a, b, c, d, e, f] = &mut self.coordinates;
+        let [p, q] = ends;
+        p[0].compress(open).store_slice(&mut a[to.clone()]);
+        p[1].compress(open).store_slice(&mut b[to.clone()]);
+        p[2].compress(open).store_slice(&mut c[to.clone()]);
+        q[0].compress(open).store_slice(&mut d[to.clone()]);
+        q[1].compress(open).store_slice(&mut e[to.clone()]);
+        q[2].compress(open).store_slice(&mut f[to]);
+    }
+
+    /// Puts the coordinates side by side, where registers cannot be packed.
     #[inline(always)]
     pub(super) fn gather(&mut self, block: [&[T; BLOCK]; 6]) {
         let [a, b, c, d, e, f] = &mut self.coordinates;
-        let items = self.numbers.items();
-        for (place, &item) in items.iter().enumerate() {
+        for (place, &item) in self.numbers.items().iter().enumerate() {
             let i = usize::from(item) % BLOCK;
             a[place] = block[0][i];
             b[place] = block[1][i];
@@ -54,13 +74,6 @@ impl<T: Real> Open<T> {
             d[place] = block[3][i];
             e[place] = block[4][i];
             f[place] = block[5][i];
-        }
-        let len = items.len();
-        if let Some(last) = len.checked_sub(1) {
-            for array in &mut self.coordinates {
-                let number = array[last];
-                array[len..len + 7].fill(number);
-            }
         }
     }
 
@@ -71,19 +84,5 @@ impl<T: Real> Open<T> {
             start: Vec3::new(at(0), at(1), at(2)),
             end: Vec3::new(at(3), at(4), at(5)),
         }
-    }
-
-    /// Four coordinates in doubles.
-    #[inline(always)]
-    pub(super) fn doubles<S: Simd>(&self, simd: S, axis: usize, places: [usize; 4]) -> f64x4<S> {
-        let array = &self.coordinates[axis];
-        let [a, b, c, d] = places;
-        [
-            array[a % ROOM].to_f64(),
-            array[b % ROOM].to_f64(),
-            array[c % ROOM].to_f64(),
-            array[d % ROOM].to_f64(),
-        ]
-        .simd_into(simd)
     }
 }

@@ -1,100 +1,196 @@
-//! Where segments cross a face: the rule of `clip/exact/points.rs`, four at a time.
+//! Where segments cross a face: the rule of `clip/exact/points.rs`, in registers.
 //!
 //! The rule takes magnitudes A and B of the face's values in double-double. Of singles that
 //! precision is hardly ever needed: with the values of doubles, off by E at most, t is off by
 //! `E / (A + B)` and some roundings; where both ends of that interval are the same
 //! single, so is what the rule gives, which lies in it (Ziv's test). Of doubles nothing could
-//! be said so.
+//! be said so: their ends wait in a queue of their face.
 
+use super::crossings::Crossings;
 use super::open::Open;
-use super::run::Asked;
-use crate::exact::float::{Lanes, Single};
+use crate::exact::float::Lanes;
 use crate::frustum::Frustum;
-use crate::math::{Real, Segment};
+use crate::math::Real;
 use crate::volume::Rows;
-use fearless_simd::f64x4;
 use fearless_simd::prelude::*;
+use fearless_simd::{f32x8, f64x4, i32x8};
 
 /// What t is off beside its values' errors, and the rule's own error of 2.5 u, with some room:
 /// 16 u.
 const ROUNDINGS: f64 = 1.7763568394002505e-15;
 
-/// Parameters of four segments with certain values of different signs.
-#[inline(always)]
-pub(super) fn parameters<S: Simd, T: Real>(
-    simd: S,
-    asked: Asked<'_, T>,
-    open: &Open<T>,
-    face: usize,
-    places: [usize; 4],
-) -> [T; 4] {
-    if T::DIGITS > 24 {
-        let t: [f64; 4] = precisely(simd, asked.frustum, open, face, places).into();
-        return [
-            T::from_f64(t[0]),
-            T::from_f64(t[1]),
-            T::from_f64(t[2]),
-            T::from_f64(t[3]),
-        ];
-    }
-    let [low, high] = interval(simd, asked.doubles, open, face, places);
-    let (low, high): ([f64; 4], [f64; 4]) = (low.into(), high.into());
-    let mut found = [
-        T::from_f64(low[0]),
-        T::from_f64(low[1]),
-        T::from_f64(low[2]),
-        T::from_f64(low[3]),
-    ];
-    let open_lanes = (found[0] != T::from_f64(high[0]))
-        | (found[1] != T::from_f64(high[1]))
-        | (found[2] != T::from_f64(high[2]))
-        | (found[3] != T::from_f64(high[3]));
-    if open_lanes {
-        for (t, place) in found.iter_mut().zip(places) {
-            *t = T::from_f64(alone(asked.frustum, &open.segment(place), face));
-        }
-    }
-    found
+/// Half spaces in doubles, to look one up for each lane.
+pub(super) struct Faces {
+    /// Each face's normal and offset.
+    numbers: [[f64; 8]; 4],
+    factor: f64,
+    constant: f64,
 }
 
-/// By doubles: t is between these.
+impl Faces {
+    pub(super) fn new(rows: &Rows<f64>) -> Self {
+        let mut numbers = [[0.0; 8]; 4];
+        for i in 0..6 {
+            let ([x, y, z], offset) = rows.face(i);
+            for (all, number) in numbers.iter_mut().zip([x, y, z, offset]) {
+                all[i] = number;
+            }
+        }
+        Self {
+            numbers,
+            factor: rows.factor,
+            constant: rows.constant,
+        }
+    }
+}
+
+/// A register of segments' coordinates, and how their ends that are cut are found.
+pub(super) trait Cut<S: Simd>: SimdFloat<S, Element: Real> {
+    /// The parameters of entry and exit, where they are cut, of those from `at` on, and which
+    /// of them are found. Or they are put off, as certain as they are.
+    fn cut(
+        faces: &Faces,
+        open: &mut Open<Self::Element>,
+        at: usize,
+        ends: [[Self; 3]; 2],
+        found: &Crossings<S, Self>,
+    ) -> ([Self; 2], Self::Mask);
+
+    /// Finds what was put off.
+    fn finish(simd: S, frustum: &Frustum, open: &mut Open<Self::Element>);
+}
+
+impl<S: Simd> Cut<S> for f32x8<S> {
+    #[inline(always)]
+    fn cut(
+        faces: &Faces,
+        _: &mut Open<f32>,
+        _: usize,
+        [p, q]: [[Self; 3]; 2],
+        found: &Crossings<S, Self>,
+    ) -> ([Self; 2], Self::Mask) {
+        let p = [p[0].widen(), p[1].widen(), p[2].widen()];
+        let q = [q[0].widen(), q[1].widen(), q[2].widen()];
+        let halves = [
+            Half::new(faces, [p[0].0, p[1].0, p[2].0], [q[0].0, q[1].0, q[2].0]),
+            Half::new(faces, [p[0].1, p[1].1, p[2].1], [q[0].1, q[1].1, q[2].1]),
+        ];
+        let (entry, entry_found) = crossing(faces, &halves, found.faces[0]);
+        let (exit, exit_found) = crossing(faces, &halves, found.faces[1]);
+        let all_found = (entry_found | !found.cut[0]) & (exit_found | !found.cut[1]);
+        ([entry, exit], all_found)
+    }
+
+    #[inline(always)]
+    fn finish(_: S, _: &Frustum, _: &mut Open<f32>) {}
+}
+
+/// Half of a register of segments, in doubles.
+struct Half<S: Simd> {
+    ends: [[f64x4<S>; 3]; 2],
+    /// What a value is off at most.
+    error: f64x4<S>,
+}
+
+impl<S: Simd> Half<S> {
+    #[inline(always)]
+    fn new(faces: &Faces, p: [f64x4<S>; 3], q: [f64x4<S>; 3]) -> Self {
+        let size = (Lanes::abs(p[0]) + Lanes::abs(p[1]) + Lanes::abs(p[2]))
+            + (Lanes::abs(q[0]) + Lanes::abs(q[1]) + Lanes::abs(q[2]));
+        Self {
+            ends: [p, q],
+            error: size.mul_add(faces.factor, size.all(faces.constant)),
+        }
+    }
+
+    /// A face's parameter is between these.
+    #[inline(always)]
+    fn interval(&self, faces: &Faces, face: [usize; 4]) -> [f64x4<S>; 2] {
+        let simd = self.error.token();
+        let [x, y, z, offset] = [0, 1, 2, 3].map(
+            #[inline(always)]
+            |k| {
+                let all = &faces.numbers[k];
+                f64x4::simd_from(
+                    simd,
+                    [all[face[0]], all[face[1]], all[face[2]], all[face[3]]],
+                )
+            },
+        );
+        let [p, q] = &self.ends;
+        let a = p[0].mul_add(x, p[1].mul_add(y, p[2].mul_add(z, offset)));
+        let b = q[0].mul_add(x, q[1].mul_add(y, q[2].mul_add(z, offset)));
+        let scale = a.all(1.0) / (a - b);
+        let t = a * scale;
+        let error = Lanes::abs(scale).mul_add(self.error, a.all(ROUNDINGS));
+        [t - error, t + error]
+    }
+}
+
+/// The parameter of a face, by number, and whether it can be no other single.
 #[inline(always)]
-fn interval<S: Simd, T: Real>(
-    simd: S,
-    rows: &Rows<f64>,
-    open: &Open<T>,
-    face: usize,
-    places: [usize; 4],
-) -> [f64x4<S>; 2] {
-    let ([x, y, z], offset) = rows.face(face);
-    let p = [
-        open.doubles(simd, 0, places),
-        open.doubles(simd, 1, places),
-        open.doubles(simd, 2, places),
-    ];
-    let q = [
-        open.doubles(simd, 3, places),
-        open.doubles(simd, 4, places),
-        open.doubles(simd, 5, places),
-    ];
-    let all = p[0].all(offset);
-    let a = p[0].mul_add(x, p[1].mul_add(y, p[2].mul_add(z, all)));
-    let b = q[0].mul_add(x, q[1].mul_add(y, q[2].mul_add(z, all)));
-    let size = (Lanes::abs(p[0]) + Lanes::abs(p[1]) + Lanes::abs(p[2]))
-        + (Lanes::abs(q[0]) + Lanes::abs(q[1]) + Lanes::abs(q[2]));
-    let scale = p[0].all(1.0) / (a - b);
-    let t = a * scale;
-    let error = size.mul_add(rows.factor, p[0].all(rows.constant));
-    let error = Lanes::abs(scale).mul_add(error, p[0].all(ROUNDINGS));
-    [t - error, t + error]
+fn crossing<S: Simd>(
+    faces: &Faces,
+    halves: &[Half<S>; 2],
+    face: f32x8<S>,
+) -> (f32x8<S>, <f32x8<S> as SimdBase<S>>::Mask) {
+    let number: [i32; 8] = face.to_int::<i32x8<S>>().into();
+    let of = |j: usize| number[j] as usize & 7;
+    let [low, high] = halves[0].interval(faces, [of(0), of(1), of(2), of(3)]);
+    let [low_2, high_2] = halves[1].interval(faces, [of(4), of(5), of(6), of(7)]);
+    let t = f64x4::narrow(low, low_2);
+    (t, t.simd_eq(f64x4::narrow(high, high_2)))
+}
+
+impl<S: Simd> Cut<S> for f64x4<S> {
+    #[inline(always)]
+    fn cut(
+        _: &Faces,
+        open: &mut Open<f64>,
+        at: usize,
+        [p, _]: [[Self; 3]; 2],
+        found: &Crossings<S, Self>,
+    ) -> ([Self; 2], Self::Mask) {
+        let queues = [&mut open.entries, &mut open.exits];
+        for ((queues, face), cut) in queues.into_iter().zip(found.faces).zip(found.cut) {
+            let cut = (cut & found.certain).to_bitmask();
+            let face: [f64; 4] = face.into();
+            for (j, face) in face.into_iter().enumerate() {
+                queues[face as usize % 6].push_if(at + j, cut >> j & 1 != 0);
+            }
+        }
+        ([p[0].all(0.0), p[0].all(1.0)], found.certain)
+    }
+
+    #[inline(always)]
+    fn finish(simd: S, frustum: &Frustum, open: &mut Open<f64>) {
+        for face in 0..6 {
+            let (entries, exits) = (&open.entries[face], &open.exits[face]);
+            for (queue, to) in [(entries, &mut open.t0), (exits, &mut open.t1)] {
+                for places in queue.fours() {
+                    let found: [f64; 4] =
+                        precisely(simd, frustum, &open.coordinates, face, places).into();
+                    for (place, t) in places.into_iter().zip(found) {
+                        to[place] = t;
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// Four coordinates.
+#[inline(always)]
+fn four<S: Simd>(simd: S, array: &[f64], [a, b, c, d]: [usize; 4]) -> f64x4<S> {
+    [array[a], array[b], array[c], array[d]].simd_into(simd)
 }
 
 /// The rule.
 #[inline(always)]
-fn precisely<S: Simd, T: Real>(
+fn precisely<S: Simd, const M: usize>(
     simd: S,
     frustum: &Frustum,
-    open: &Open<T>,
+    coordinates: &[[f64; M]; 6],
     face: usize,
     places: [usize; 4],
 ) -> f64x4<S> {
@@ -102,40 +198,26 @@ fn precisely<S: Simd, T: Real>(
     let a = precise.magnitude(
         face,
         #[inline(always)]
-        |axis| open.doubles(simd, axis, places),
+        |axis| four(simd, &coordinates[axis], places),
     );
     let b = precise.magnitude(
         face,
         #[inline(always)]
-        |axis| open.doubles(simd, axis + 3, places),
+        |axis| four(simd, &coordinates[axis + 3], places),
     );
     let mut from_end = b.simd_lt(a);
     let ties = a.simd_eq(b);
     if ties.any_true() {
-        let lesser = places.map(|place| -i64::from(end_is_lesser(&open.segment(place))));
+        let lesser = places.map(|place| -i64::from(end_is_lesser(coordinates, place)));
         from_end |= ties & lesser.simd_into(simd);
     }
     let tau = a.min(b) / (a + b);
     from_end.select(a.all(1.0) - tau, tau)
 }
 
-/// The rule, for one.
-#[cold]
-fn alone<T: Real>(frustum: &Frustum, segment: &Segment<T>, face: usize) -> f64 {
-    let precise = &frustum.filter().precise;
-    let magnitude = |p| precise.magnitudes(Single, [face], [p]);
-    let Segment { start, end } = segment.to_f64();
-    let (a, b) = (magnitude(start), magnitude(end));
-    let tau = a.min(b) / (a + b);
-    if b < a || a == b && end_is_lesser(segment) {
-        1.0 - tau
-    } else {
-        tau
-    }
-}
-
 /// Whether the end is lexicographically smaller than the start.
 #[cold]
-fn end_is_lesser<T: Real>(segment: &Segment<T>) -> bool {
-    segment.start.to_array() > segment.end.to_array()
+fn end_is_lesser<const M: usize>(coordinates: &[[f64; M]; 6], place: usize) -> bool {
+    let at = |from: usize| [0, 1, 2].map(|axis| coordinates[from + axis][place]);
+    at(0) > at(3)
 }

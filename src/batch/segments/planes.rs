@@ -48,6 +48,8 @@ pub(super) struct Planes<V> {
     rounding: V,
     pub(super) zero: V,
     pub(super) one: V,
+    /// The faces' numbers.
+    pub(super) numbers: [V; 6],
 }
 
 /// The six faces' values at both ends of a register of segments.
@@ -87,6 +89,14 @@ impl<V: Copy> Planes<V> {
             rounding: all(T::from_f64(ROUNDINGS * T::UNIT_ROUNDOFF)),
             zero: all(T::ZERO),
             one: all(T::ONE),
+            numbers: [
+                all(T::ZERO),
+                all(T::ONE),
+                all(T::from_f64(2.0)),
+                all(T::from_f64(3.0)),
+                all(T::from_f64(4.0)),
+                all(T::from_f64(5.0)),
+            ],
         }
     }
 

@@ -41,6 +41,13 @@ impl Queue {
         self.len += (bits & 0xff).count_ones() as usize;
     }
 
+    /// Appends one, or does not.
+    #[inline(always)]
+    pub(super) fn push_if(&mut self, item: usize, condition: bool) {
+        self.items[self.len % ROOM] = item as u16;
+        self.len += usize::from(condition);
+    }
+
     #[inline(always)]
     pub(super) fn items(&self) -> &[u16] {
         &self.items[..self.len.min(BLOCK)]

@@ -1,10 +1,11 @@
 //! Blocks of segments on their way: see [`super`].
 
 use super::Segments;
+use super::crossings::Crossings;
 use super::open::Open;
-use super::parameters::parameters;
+use super::parameters::{Cut, Faces};
 use super::planes::{Planes, Values};
-use super::queues::{BLOCK, Queue, ROOM};
+use super::queues::{BLOCK, ROOM};
 use crate::clip::{Accuracy, Class, SegmentClip, StageCounts, slice};
 use crate::frustum::Frustum;
 use crate::math::{NonFiniteAt, Real, Segment};
@@ -79,9 +80,10 @@ fn run<S, T, V, const N: usize>(
 where
     S: Simd,
     T: Real,
-    V: SimdFloat<S, Element = T, Array = [T; N]>,
+    V: Cut<S> + SimdFloat<S, Element = T, Array = [T; N]>,
 {
     let planes = Planes::<V>::new(simd, asked.rows, asked.frustum.filter());
+    let faces = Faces::new(asked.doubles);
     let mut open = Open::new();
     let mut answers = Answers {
         classes: [Class::Outside; BLOCK],
@@ -100,11 +102,13 @@ where
             }
         };
         open.clear();
-        answers.triage::<S, V, N>(simd, &planes, block, &mut open.numbers);
+        answers.triage::<S, V, N>(simd, &planes, block, &mut open);
         open.numbers.keep_below(count);
-        open.gather(block);
-        answers.cross::<S, V, N>(simd, &planes, &mut open);
-        answers.parameters(simd, asked, &open);
+        if !packs(simd) {
+            open.gather(block);
+        }
+        cross::<S, T, V, N>(simd, &planes, &faces, asked.frustum, &mut open);
+        answers.close(&open);
         for &place in open.unsure.items() {
             let place = usize::from(place);
             out.unsure.segments.push(open.segment(place));
@@ -154,6 +158,15 @@ impl<T: Real> Out<'_, T> {
         numbers.clear();
         Ok(())
     }
+}
+
+/// Whether registers can be packed fast.
+#[inline(always)]
+fn packs<S: Simd>(simd: S) -> bool {
+    #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+    return simd.level().as_avx2().is_some();
+    #[cfg(not(any(target_arch = "x86", target_arch = "x86_64")))]
+    return false;
 }
 
 /// A block from `start` of each array, if there are so many.
@@ -235,7 +248,7 @@ impl<T: Real> Answers<T> {
         simd: S,
         planes: &Planes<V>,
         block: [&[T; BLOCK]; 6],
-        numbers: &mut Queue,
+        open: &mut Open<T>,
     ) where
         S: Simd,
         V: SimdFloat<S, Element = T, Array = [T; N]>,
@@ -259,130 +272,66 @@ impl<T: Real> Answers<T> {
             outside
                 .select(planes.zero, planes.one)
                 .store_slice(&mut self.t1[at..at + N]);
+            let left = !(outside | inside);
+            if packs(simd) {
+                open.pack::<S, V, N>([p, q], left);
+            }
+            open.numbers.append(at, left.to_bitmask());
             let (outside, inside) = (outside.to_bitmask(), inside.to_bitmask());
             for k in (0..N).step_by(4) {
                 let bits = outside >> k & 15 | (inside >> k & 15) << 4;
                 self.classes[at + k..at + k + 4].copy_from_slice(&CLASSES[bits as usize & 255]);
             }
-            let all = u64::MAX >> (64 - N);
-            numbers.append(at, all & !(outside | inside));
         }
     }
 
-    /// Latest entries and earliest exits.
+    /// Writes down what was found of what was open.
     #[inline(always)]
-    fn cross<S, V, const N: usize>(&mut self, simd: S, planes: &Planes<V>, open: &mut Open<T>)
-    where
-        S: Simd,
-        V: SimdFloat<S, Element = T, Array = [T; N]>,
-    {
-        let count = open.numbers.len();
-        for at in (0..count).step_by(N) {
-            let [p, q] = ends::<S, T, V, N, ROOM>(simd, open.coordinates.each_ref(), at);
-            let values = planes.values::<S, T>(p, q);
-            let found = Crossings::new::<S, T, V>(planes, &values);
-            let present = u64::MAX >> (64 - N.min(count - at));
-            let outside = found.outside & present;
-            let certain = found.certain & present;
-            for i in 0..6 {
-                open.entries[i].append(at, found.entries[i] & certain);
-                open.exits[i].append(at, found.exits[i] & certain);
-            }
-            open.outside.append(at, outside);
-            open.unsure.append(at, present & !(certain | outside));
-        }
-        for &place in open.outside.items() {
-            let i = open.numbers.at(usize::from(place));
-            self.classes[i] = Class::Outside;
-            self.t0[i] = T::ONE;
-            self.t1[i] = T::ZERO;
-        }
-    }
-
-    /// Where certain crossings are.
-    #[inline(always)]
-    fn parameters<S: Simd>(&mut self, simd: S, asked: Asked<'_, T>, open: &Open<T>) {
-        for face in 0..6 {
-            let to = [&mut self.t0, &mut self.t1];
-            for (queue, to) in [&open.entries[face], &open.exits[face]].into_iter().zip(to) {
-                for places in queue.fours() {
-                    let found = parameters(simd, asked, open, face, places);
-                    to[open.numbers.at(places[0])] = found[0];
-                    to[open.numbers.at(places[1])] = found[1];
-                    to[open.numbers.at(places[2])] = found[2];
-                    to[open.numbers.at(places[3])] = found[3];
-                }
-            }
+    fn close(&mut self, open: &Open<T>) {
+        for (place, &number) in open.numbers.items().iter().enumerate() {
+            let i = usize::from(number) % BLOCK;
+            self.classes[i] = open.classes[place];
+            self.t0[i] = open.t0[place];
+            self.t1[i] = open.t1[place];
         }
     }
 }
 
-/// The latest entry and the earliest exit of a register of segments, a bit each.
-struct Crossings {
-    /// Which segments enter last at a face, or nearly so; and leave first.
-    entries: [u64; 6],
-    exits: [u64; 6],
-    /// Entries certainly come after exits.
-    outside: u64,
-    /// Entry and exit certainly are at one face each, or at none, and in order.
-    certain: u64,
-}
-
-impl Crossings {
-    #[inline(always)]
-    fn new<S, T, V>(planes: &Planes<V>, values: &Values<V>) -> Self
-    where
-        S: Simd,
-        T: Real,
-        V: SimdFloat<S, Element = T>,
-    {
-        let (zero, one) = (planes.zero, planes.one);
-        // Parameters of entries, and of exits, negative; where there is none:
-        let none = [-one, -(one + one)];
-        let (mut enter, mut leave) = ([none[0]; 6], [none[1]; 6]);
-        let (mut entry, mut exit) = (none[0], none[1]);
-        let mut scales = zero;
-        let mut nearest = values.start[0].abs().min(values.end[0].abs());
-        for i in 0..6 {
-            let (a, b) = (values.start[i], values.end[i]);
-            if i > 0 {
-                nearest = nearest.min(a.abs().min(b.abs()));
-            }
-            let scale = one / (a - b);
-            let t = a * scale;
-            let (entering, leaving) = (a.simd_lt(zero), b.simd_lt(zero));
-            enter[i] = entering.select(t, none[0]);
-            leave[i] = leaving.select(-t, none[1]);
-            entry = entry.max(enter[i]);
-            exit = exit.max(leave[i]);
-            scales = scales.max((entering ^ leaving).select(scale.abs(), zero));
+/// Latest entries and earliest exits of what is open.
+#[inline(always)]
+fn cross<S, T, V, const N: usize>(
+    simd: S,
+    planes: &Planes<V>,
+    faces: &Faces,
+    frustum: &Frustum,
+    open: &mut Open<T>,
+) where
+    S: Simd,
+    T: Real,
+    V: Cut<S> + SimdFloat<S, Element = T, Array = [T; N]>,
+{
+    let count = open.numbers.len();
+    for at in (0..count).step_by(N) {
+        let ends = ends::<S, T, V, N, ROOM>(simd, open.coordinates.each_ref(), at);
+        let values = planes.values::<S, T>(ends[0], ends[1]);
+        let found = Crossings::new(planes, &values);
+        let ([entry, exit], sure) = V::cut(faces, open, at, ends, &found);
+        let entry = found.cut[0].select(entry, planes.zero);
+        let exit = found.cut[1].select(exit, planes.one);
+        let t0 = found.outside.select(planes.one, entry);
+        let t1 = found.outside.select(planes.zero, exit);
+        t0.store_slice(&mut open.t0[at..at + N]);
+        t1.store_slice(&mut open.t1[at..at + N]);
+        let outside = found.outside.to_bitmask();
+        for k in (0..N).step_by(4) {
+            let bits = outside >> k & 15;
+            open.classes[at + k..at + k + 4].copy_from_slice(&CLASSES[bits as usize]);
         }
-        // What two parameters can be off, together.
-        let error = planes.error::<S, T>(values, scales);
-        let error = error + error;
-        let overlap = entry + exit;
-        let signs = nearest.simd_gt(values.threshold) & planes.covers::<S, T>(values);
-        let half = T::from_f64(-0.5);
-        let enters = entry.simd_gt(half).to_bitmask();
-        let leaves = exit.simd_gt(half - T::ONE).to_bitmask();
-        let (last, first) = (entry - error, exit - error);
-        let (mut entries, mut exits) = ([0; 6], [0; 6]);
-        let (mut seen, mut twice) = ([0; 2], 0);
-        for i in 0..6 {
-            entries[i] = enter[i].simd_ge(last).to_bitmask() & enters;
-            exits[i] = leave[i].simd_ge(first).to_bitmask() & leaves;
-            twice |= seen[0] & entries[i] | seen[1] & exits[i];
-            seen[0] |= entries[i];
-            seen[1] |= exits[i];
-        }
-        let ordered = signs & overlap.simd_lt(-error);
-        Crossings {
-            entries,
-            exits,
-            outside: (signs & overlap.simd_gt(error)).to_bitmask(),
-            certain: ordered.to_bitmask() & !twice,
-        }
+        let present = u64::MAX >> (64 - N.min(count - at));
+        let sure = outside | (found.certain & sure).to_bitmask();
+        open.unsure.append(at, present & !sure);
     }
+    V::finish(simd, frustum, open);
 }
 
 /// At the machine's vector width, eight singles at a time.

@@ -166,9 +166,9 @@ After the sum comes the first witness of each family in which something is wrong
 
 With --volumes
   wrong        classes that are wrong; outside: of these, called outside
-  batch exact  wrong classes in a batch; wrong exact answers about boxes
+  batch exact  wrong classes in a batch; wrong answers of the exact test
   out% in%     volumes that are outside of a face's plane; that are inside
-  false%       boxes outside of no face's plane that are apart all the same
+  false%       volumes outside of no face's plane that are apart all the same
   filt.%       signs the filter left open; exp.%, int.%: taken from expansions, integers
 
 Examples

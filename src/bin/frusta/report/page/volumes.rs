@@ -18,7 +18,7 @@ pub(super) fn section(volumes: &VolumeSurvey) -> Markup {
         h3 { "What faces let pass" }
         p {
             "Asked face by face, a box beyond an edge or a corner of the frustum is outside of none. The exact \
-             test, by separating axes, finds it. The larger the boxes and the narrower the view, the more it \
+             test finds it. The larger the boxes and the narrower the view, the more it \
              takes out: boxes along the axes of up to a half extent, in parts of the far distance, evenly where \
              one can touch the frustum\'s bounds; the camera is turned."
         }
@@ -47,14 +47,10 @@ fn errors(rows: &[(VolumeKind, VolumeTally)]) -> Markup {
                 td { (count(tally.wrong)) }
                 td { (count(tally.wrongly_outside)) }
                 td { (count(tally.wrong_in_batch)) }
-                td { @if is_box(*kind) { (count(tally.wrong_exact)) } @else { "-" } }
+                td { (count(tally.wrong_exact)) }
             } } }
         } }
     }
-}
-
-fn is_box(kind: VolumeKind) -> bool {
-    matches!(kind, VolumeKind::Box | VolumeKind::BoxF32)
 }
 
 fn accepts(rows: &[FalseAccepts]) -> Markup {
