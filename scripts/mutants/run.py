@@ -42,6 +42,8 @@ TESTS = [
     ("stages", []),
     ("slices", []),
 ]
+# Volumes and batches have their own.
+VOLUME_TESTS = [("volumes", []), ("frusta", ["volume::", "batch::"]), ("regressions", [])]
 # Slices are compared with single calls first.
 SLICE_TESTS = [("frusta", ["clip::slice::"]), *TESTS]
 SECONDS = 300
@@ -136,7 +138,7 @@ def write_tree(mutants):
 
 def build():
     """The test binaries, by name."""
-    names = [n for n, _ in TESTS if n != "frusta"]
+    names = {n for n, _ in TESTS + VOLUME_TESTS if n != "frusta"}
     targets = ["--lib"] + [a for n in names for a in ("--test", n)]
     command = ["cargo", "test", "--features", "report", "--no-run"]
     command += ["--message-format", "json-render-diagnostics", *targets]
@@ -176,6 +178,14 @@ def killer(binaries, number, tests=TESTS):
     return None
 
 
+def tests_of(file):
+    if file.startswith("src/clip/slice/"):
+        return SLICE_TESTS
+    if file.startswith(("src/volume/", "src/batch/")):
+        return VOLUME_TESTS
+    return TESTS
+
+
 def main():
     mutants = read_list()
     arguments = sys.argv[1:]
@@ -188,15 +198,14 @@ def main():
         chosen |= set(range(int(first), int(last or first) + 1))
     write_tree(mutants)
     binaries = build()
-    if by := killer(binaries, 0):
+    if by := killer(binaries, 0) or killer(binaries, 0, VOLUME_TESTS):
         sys.exit(f"{by} fails without a mutant")
     counts = {"killed": 0, "equivalent": 0, "SURVIVED": 0}
     for m in mutants:
         if chosen and m.number not in chosen:
             continue
         began = time.monotonic()
-        of_slices = m.file.startswith("src/clip/slice/")
-        by = killer(binaries, m.number, SLICE_TESTS if of_slices else TESTS)
+        by = killer(binaries, m.number, tests_of(m.file))
         verdict = "killed" if by else "equivalent" if m.equivalent else "SURVIVED"
         counts[verdict] += 1
         note = f"by {by}" if by else m.equivalent

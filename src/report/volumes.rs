@@ -21,7 +21,7 @@ use crate::batch::{SphereArrays, Spheres};
 use crate::frustum::{Camera, FarCorners, Frustum, Projection};
 use crate::math::{Pose, Segment, Vec3};
 use crate::samples::{Family, Mix, Random};
-use crate::volume::{Aabb, Containment, Culler, Sphere};
+use crate::volume::{Aabb, Containment, Culler, Obb, Sphere};
 use std::hint::black_box;
 use std::time::Instant;
 
@@ -233,6 +233,7 @@ struct Scene {
     boxes: Vec<Aabb<f32>>,
     box_columns: [Vec<f32>; 6],
     sets: Vec<BoxSet<f32>>,
+    oriented: Vec<Obb<f32>>,
     spheres: Vec<Sphere<f32>>,
     sphere_columns: [Vec<f32>; 4],
     segments: Vec<Segment<f32>>,
@@ -269,6 +270,15 @@ impl Scene {
         let boxes: Vec<Aabb<f32>> = (0..plan.timed).map(|_| single()).collect();
         let ball = |b: &Aabb<f32>| Sphere::new(b.min, b.max.x - b.min.x);
         let spheres: Vec<Sphere<f32>> = boxes.iter().map(ball).collect();
+        // Turned about two axes.
+        let turned = |v: Vec3<f32>| {
+            let v = Vec3::new(0.8 * v.x - 0.6 * v.y, 0.6 * v.x + 0.8 * v.y, v.z);
+            Vec3::new(v.x, 0.8 * v.y - 0.6 * v.z, 0.6 * v.y + 0.8 * v.z)
+        };
+        let oriented = boxes.iter().map(|b| {
+            let v = Obb::from(*b);
+            Obb::new(v.center, v.half_axes.map(turned))
+        });
         let segments: Vec<Segment<f32>> = Mix::ALL[1].segments(plan.timed, &Pose::IDENTITY);
         let sets = boxes.chunks(VolumeSurvey::PIECE);
         Some(Self {
@@ -280,6 +290,7 @@ impl Scene {
                 .ok()?,
             sphere_columns: columns(&spheres, |s| [s.center.x, s.center.y, s.center.z, s.radius]),
             segment_columns: columns(&segments, |s| numbers(s.start, s.end)),
+            oriented: oriented.collect(),
             boxes,
             spheres,
             segments,
@@ -305,7 +316,7 @@ struct Buffers {
 type Timed = (&'static str, &'static str, fn(&Scene, &mut Buffers));
 
 /// Errors are none: the volumes are such.
-const TIMED: [Timed; 10] = [
+const TIMED: [Timed; 13] = [
     ("box", "classify", |scene, _| {
         for volume in &scene.boxes {
             let _ = black_box(scene.culler.classify(*volume));
@@ -335,9 +346,24 @@ const TIMED: [Timed; 10] = [
             let _ = scene.culler.visible_boxes(set, &mut to.list);
         }
     }),
+    ("oriented box", "classify", |scene, _| {
+        for volume in &scene.oriented {
+            let _ = black_box(scene.culler.classify(*volume));
+        }
+    }),
+    ("oriented box", "classify_exact", |scene, _| {
+        for volume in &scene.oriented {
+            let _ = black_box(scene.culler.classify_exact(*volume));
+        }
+    }),
     ("sphere", "classify", |scene, _| {
         for volume in &scene.spheres {
             let _ = black_box(scene.culler.classify(*volume));
+        }
+    }),
+    ("sphere", "classify_exact", |scene, _| {
+        for volume in &scene.spheres {
+            let _ = black_box(scene.culler.classify_exact(*volume));
         }
     }),
     ("sphere", "mask_spheres, arrays", |scene, to| {
@@ -380,7 +406,7 @@ fn times(plan: &VolumePlan, on_step: &dyn Fn(u64)) -> Vec<VolumeTime> {
             .filter(|timed| timed.0 == job)
             .collect::<Vec<_>>()
     };
-    let names = ["box", "sphere", "segment"];
+    let names = ["box", "oriented box", "sphere", "segment"];
     let fields: Vec<Vec<&Timed>> = names.iter().map(|name| of(name)).collect();
     fields
         .iter()
