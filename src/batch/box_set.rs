@@ -9,7 +9,7 @@ use crate::math::Real;
 use crate::volume::{Aabb, VolumeError, VolumeErrorAt};
 
 /// Axis-aligned boxes, kept ready to be asked about again and again; in memory a multiple
-/// of 512 of them.
+/// of 256 of them.
 ///
 /// ```
 /// use frusta::batch::BoxSet;

@@ -5,7 +5,7 @@
 //! opposite one. Which number of a box is a corner's coordinate depends on the face
 //! alone: for a face it is chosen once.
 //! ```text
-//! for each block of 512 boxes:
+//! for each block of 256 boxes:
 //!     whether they are boxes, and the largest number    of a BoxSet known before
 //!     near and far, which have one normal; left         greatest values, least ones if
 //!     right, bottom, top                                asked for; of all the least:

@@ -12,7 +12,7 @@
 //! box_set  boxes that are kept: found to be boxes once, asked about fastest
 //! spheres  balls
 //! segments class and parameters
-//! words    512 volumes at a time; what is not certain one by one
+//! words    256 volumes at a time; what is not certain one by one
 //! masks    bits, classes, lists of numbers
 //! ```
 

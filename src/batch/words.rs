@@ -1,7 +1,7 @@
 //! Volumes by blocks, and what is done with their answers.
 //!
 //! ```text
-//! for each block of 512 volumes, a bit each:
+//! for each block of 256 volumes, a bit each:
 //!     certainly outside, certainly inside, unsettled
 //!     what is unsettled is asked for one by one, exactly
 //!     the words go to the caller's buffers: masks, classes or a list of numbers
@@ -18,7 +18,7 @@ pub(super) const WORD: usize = u64::BITS as usize;
 
 /// Volumes in a block: few enough that their numbers stay in the first cache from one
 /// pass over them to the next, so many that loops are not unrolled altogether.
-pub(super) const BLOCK: usize = 8 * WORD;
+pub(super) const BLOCK: usize = 4 * WORD;
 
 /// Eight volumes, K numbers each.
 pub(super) type Eight<T, const K: usize> = [[T; 8]; K];

@@ -2,8 +2,9 @@
 //!
 //! For drawing, bounding and plain algorithms. Each coordinate of a vertex is
 //! the exact one, rounded once: Cramer's rule in exact arithmetic and one
-//! division. Planes are exact up to the final scaling to unit length. Nothing
-//! here serves exact decisions, which are made on the frustum itself.
+//! division. Planes are exact up to the final scaling to unit length. What
+//! is rounded here serves no exact decision: they are made on the frustum itself or, about balls,
+//! on what is not rounded yet.
 
 use super::exact_vec::{Dyadic, Dyadic3, Rounded, cross, dot, exact, normalised_by_power};
 use super::{EndRect, Face, Frustum, Shape};
@@ -90,14 +91,31 @@ impl Inverse {
     }
 }
 
-/// The corners of a rectangle, going round.
-fn around(r: Rect) -> [[f64; 2]; 4] {
-    [
-        [r.left, r.bottom],
-        [r.right, r.bottom],
-        [r.right, r.top],
-        [r.left, r.top],
-    ]
+/// The corners of an end in the frame, going round.
+fn around(end: &EndRect) -> [Dyadic3; 4] {
+    let (r, z) = (end.rect, end.z);
+    let corners = [
+        [r.left, r.bottom, z],
+        [r.right, r.bottom, z],
+        [r.right, r.top, z],
+        [r.left, r.top, z],
+    ];
+    corners.map(|corner| corner.map(Dyadic::from))
+}
+
+/// In the frame, the corners of the near end, and those of the far one; of an infinite frustum
+/// the rays.
+pub(crate) fn ends(shape: &Shape) -> [[Dyadic3; 4]; 2] {
+    let other = match *shape {
+        Shape::Finite { far, .. } => far,
+        Shape::Infinite {
+            slopes, direction, ..
+        } => EndRect {
+            z: direction.sign(),
+            rect: slopes,
+        },
+    };
+    [around(&shape.near()), around(&other)]
 }
 
 impl Frustum {
@@ -121,29 +139,15 @@ impl Frustum {
     #[must_use]
     pub fn corners(&self) -> Corners {
         let inverse = Inverse::new(self);
-        let end = |e: EndRect| {
-            around(e.rect).map(|[x, y]| {
-                let corner = [x, y, e.z].map(Dyadic::from);
-                inverse.rounded(&inverse.point(&corner))
-            })
-        };
-        let (near, far) = match *self.shape() {
-            Shape::Finite { near, far } => (near, FarCorners::Points(end(far))),
-            Shape::Infinite {
-                near,
-                slopes,
-                direction,
-            } => {
-                let along = |[x, y]: [f64; 2]| {
-                    let ray = [x, y, direction.sign()].map(Dyadic::from);
-                    inverse.rounded(&inverse.vector(&ray))
-                };
-                (near, FarCorners::Directions(around(slopes).map(along)))
-            }
-        };
+        let point = |corner| inverse.rounded(&inverse.point(&corner));
+        let direction = |ray| inverse.rounded(&inverse.vector(&ray));
+        let [near, other] = ends(self.shape());
         Corners {
-            near: end(near),
-            far,
+            near: near.map(point),
+            far: match self.shape() {
+                Shape::Finite { .. } => FarCorners::Points(other.map(point)),
+                Shape::Infinite { .. } => FarCorners::Directions(other.map(direction)),
+            },
         }
     }
 

@@ -1,8 +1,8 @@
 //! Exact vectors for constructing frusta and for volumes.
 //!
 //! A determinant, or a difference of far points, loses nothing; one rounding
-//! ends each computation. Used once a frustum, not once a segment, which is why
-//! allocating is no concern here. Input must be finite; callers check that
+//! ends each computation. Used once a frustum, or once for a volume that doubles leave
+//! open, which is why allocating is no concern here. Input must be finite; callers check that
 //! first.
 
 use crate::exact::Number;

@@ -67,21 +67,43 @@ pub(super) trait Extent {
     ) -> Containment {
         let [least, greatest] = Self::values(middle, of.rounded(), of.length());
         let threshold = of.threshold(size);
-        let mut is_negative = |value: f64, extreme| {
-            if value > threshold {
-                return false;
-            }
-            value < -threshold || {
-                counts.filter_failures += 1;
-                self.sign_beyond_filter(of, extreme, counts) == Ordering::Less
-            }
-        };
-        if is_negative(greatest, Extreme::Greatest) {
+        if self.is_negative(greatest, threshold, of, Extreme::Greatest, counts) {
             Containment::Outside
-        } else if is_negative(least, Extreme::Least) {
+        } else if self.is_negative(least, threshold, of, Extreme::Least, counts) {
             Containment::Crossing
         } else {
             Containment::Inside
+        }
+    }
+
+    /// Whether all of it is outside of the half space.
+    fn is_outside(
+        &self,
+        middle: &Self::Middle,
+        size: f64,
+        of: &HalfSpace,
+        counts: &mut VolumeCounts,
+    ) -> bool {
+        let [_, greatest] = Self::values(middle, of.rounded(), of.length());
+        self.is_negative(greatest, of.threshold(size), of, Extreme::Greatest, counts)
+    }
+
+    /// Whether an extreme value is negative, of which this is the rounded one.
+    #[inline(always)]
+    fn is_negative(
+        &self,
+        value: f64,
+        threshold: f64,
+        of: &HalfSpace,
+        extreme: Extreme,
+        counts: &mut VolumeCounts,
+    ) -> bool {
+        if value > threshold {
+            return false;
+        }
+        value < -threshold || {
+            counts.filter_failures += 1;
+            self.sign_beyond_filter(of, extreme, counts) == Ordering::Less
         }
     }
 }

@@ -35,7 +35,7 @@ use std::cmp::Ordering;
 const ROUNDING: f64 = 8.0 * f64::UNIT_ROUNDOFF;
 /// From the rounded values' threshold to that of values of 106 bits: 2^-51.
 const PRECISE: f64 = 4.440892098500626e-16;
-/// 2^-900: above what underflow does, below every size.
+/// About 2^-900: above what underflow does, below every size.
 const FLOOR: f64 = 1.183052186166774e-271;
 /// 2^900: below it nothing overflows on the way.
 pub(super) const MOST: f64 = 8.452712498170644e270;
@@ -172,6 +172,14 @@ impl HalfSpace {
         (0..3).fold(Dyadic::from(0.0), |sum, j| {
             &sum + &(&self.exact[j] * &Dyadic::from(v[j]))
         })
+    }
+
+    /// Whether it is the same set of points, exactly.
+    pub(super) fn is_the_same(&self, other: &Self) -> bool {
+        let (a, b) = (&self.exact, &other.exact);
+        let k = (0..3).find(|&k| a[k].sign().is_ne()).unwrap_or(0);
+        a[k].sign() == b[k].sign()
+            && (0..4).all(|i| (&(&a[i] * &b[k]) - &(&b[i] * &a[k])).sign().is_eq())
     }
 
     /// The square of the normal's length, exactly.

@@ -15,9 +15,6 @@ pub(super) struct Open<T> {
     pub(super) classes: [Class; ROOM],
     pub(super) t0: [T; ROOM],
     pub(super) t1: [T; ROOM],
-    /// Places in these, by face, where an entry's and an exit's parameter is missing.
-    pub(super) entries: [Queue; 6],
-    pub(super) exits: [Queue; 6],
     /// Places of what is not certain.
     pub(super) unsure: Queue,
 }
@@ -30,8 +27,6 @@ impl<T: Real> Open<T> {
             classes: [Class::Outside; ROOM],
             t0: [T::ZERO; ROOM],
             t1: [T::ZERO; ROOM],
-            entries: [const { Queue::new() }; 6],
-            exits: [const { Queue::new() }; 6],
             unsure: Queue::new(),
         }
     }
@@ -39,8 +34,6 @@ impl<T: Real> Open<T> {
     #[inline(always)]
     pub(super) fn clear(&mut self) {
         self.numbers.clear();
-        self.entries.iter_mut().for_each(Queue::clear);
-        self.exits.iter_mut().for_each(Queue::clear);
         self.unsure.clear();
     }
 

@@ -8,12 +8,14 @@
 
 use super::crossings::Crossings;
 use super::open::Open;
+use super::queues::Queue;
 use crate::exact::float::Lanes;
 use crate::frustum::Frustum;
 use crate::math::Real;
 use crate::volume::Rows;
 use fearless_simd::prelude::*;
 use fearless_simd::{f32x8, f64x4, i32x8};
+use std::ops::Range;
 
 /// What t is off beside its values' errors, and the rule's own error of 2.5 u, with some room:
 /// 16 u.
@@ -46,26 +48,36 @@ impl Faces {
 
 /// A register of segments' coordinates, and how their ends that are cut are found.
 pub(super) trait Cut<S: Simd>: SimdFloat<S, Element: Real> {
-    /// The parameters of entry and exit, where they are cut, of those from `at` on, and which
+    /// What is put off until all of a block is known.
+    type PutOff: Default;
+
+    /// The parameters of entry and exit, where they are cut, of those in these places, and which
     /// of them are found. Or they are put off, as certain as they are.
     fn cut(
         faces: &Faces,
-        open: &mut Open<Self::Element>,
-        at: usize,
+        put_off: &mut Self::PutOff,
+        present: Range<usize>,
         ends: [[Self; 3]; 2],
         found: &Crossings<S, Self>,
     ) -> ([Self; 2], Self::Mask);
 
     /// Finds what was put off.
-    fn finish(simd: S, frustum: &Frustum, open: &mut Open<Self::Element>);
+    fn finish(
+        simd: S,
+        frustum: &Frustum,
+        put_off: &mut Self::PutOff,
+        open: &mut Open<Self::Element>,
+    );
 }
 
 impl<S: Simd> Cut<S> for f32x8<S> {
+    type PutOff = ();
+
     #[inline(always)]
     fn cut(
         faces: &Faces,
-        _: &mut Open<f32>,
-        _: usize,
+        (): &mut (),
+        _: Range<usize>,
         [p, q]: [[Self; 3]; 2],
         found: &Crossings<S, Self>,
     ) -> ([Self; 2], Self::Mask) {
@@ -82,7 +94,7 @@ impl<S: Simd> Cut<S> for f32x8<S> {
     }
 
     #[inline(always)]
-    fn finish(_: S, _: &Frustum, _: &mut Open<f32>) {}
+    fn finish(_: S, _: &Frustum, (): &mut (), _: &mut Open<f32>) {}
 }
 
 /// Half of a register of segments, in doubles.
@@ -142,30 +154,47 @@ fn crossing<S: Simd>(
     (t, t.simd_eq(f64x4::narrow(high, high_2)))
 }
 
+/// Places, by face, where an entry's and an exit's parameter is missing.
+pub(super) struct ByFace {
+    entries: [Queue; 6],
+    exits: [Queue; 6],
+}
+
+impl Default for ByFace {
+    fn default() -> Self {
+        Self {
+            entries: [const { Queue::new() }; 6],
+            exits: [const { Queue::new() }; 6],
+        }
+    }
+}
+
 impl<S: Simd> Cut<S> for f64x4<S> {
+    type PutOff = ByFace;
+
     #[inline(always)]
     fn cut(
         _: &Faces,
-        open: &mut Open<f64>,
-        at: usize,
+        put_off: &mut ByFace,
+        present: Range<usize>,
         [p, _]: [[Self; 3]; 2],
         found: &Crossings<S, Self>,
     ) -> ([Self; 2], Self::Mask) {
-        let queues = [&mut open.entries, &mut open.exits];
+        let queues = [&mut put_off.entries, &mut put_off.exits];
         for ((queues, face), cut) in queues.into_iter().zip(found.faces).zip(found.cut) {
             let cut = (cut & found.certain).to_bitmask();
             let face: [f64; 4] = face.into();
-            for (j, face) in face.into_iter().enumerate() {
-                queues[face as usize % 6].push_if(at + j, cut >> j & 1 != 0);
+            for ((j, face), place) in face.into_iter().enumerate().zip(present.clone()) {
+                queues[face as usize % 6].push_if(place, cut >> j & 1 != 0);
             }
         }
         ([p[0].all(0.0), p[0].all(1.0)], found.certain)
     }
 
     #[inline(always)]
-    fn finish(simd: S, frustum: &Frustum, open: &mut Open<f64>) {
+    fn finish(simd: S, frustum: &Frustum, put_off: &mut ByFace, open: &mut Open<f64>) {
         for face in 0..6 {
-            let (entries, exits) = (&open.entries[face], &open.exits[face]);
+            let (entries, exits) = (&mut put_off.entries[face], &mut put_off.exits[face]);
             for (queue, to) in [(entries, &mut open.t0), (exits, &mut open.t1)] {
                 for places in queue.fours() {
                     let found: [f64; 4] =
@@ -174,6 +203,7 @@ impl<S: Simd> Cut<S> for f64x4<S> {
                         to[place] = t;
                     }
                 }
+                queue.clear();
             }
         }
     }

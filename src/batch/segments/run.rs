@@ -84,7 +84,7 @@ where
 {
     let planes = Planes::<V>::new(simd, asked.rows, asked.frustum.filter());
     let faces = Faces::new(asked.doubles);
-    let mut open = Open::new();
+    let (mut put_off, mut open) = (V::PutOff::default(), Open::new());
     let mut answers = Answers {
         classes: [Class::Outside; BLOCK],
         t0: [T::ZERO; BLOCK],
@@ -107,7 +107,14 @@ where
         if !packs(simd) {
             open.gather(block);
         }
-        cross::<S, T, V, N>(simd, &planes, &faces, asked.frustum, &mut open);
+        cross::<S, T, V, N>(
+            simd,
+            &planes,
+            &faces,
+            asked.frustum,
+            &mut put_off,
+            &mut open,
+        );
         answers.close(&open);
         for &place in open.unsure.items() {
             let place = usize::from(place);
@@ -119,15 +126,15 @@ where
         out.t0[to.clone()].copy_from_slice(&answers.t0[..count]);
         out.t1[to].copy_from_slice(&answers.t1[..count]);
         if out.unsure.numbers.len() >= BLOCK {
-            out.clip_unsure(asked.frustum)?;
+            out.clip_unsure(simd.level(), asked.frustum)?;
         }
     }
-    out.clip_unsure(asked.frustum)
+    out.clip_unsure(simd.level(), asked.frustum)
 }
 
 impl<T: Real> Out<'_, T> {
     /// What waits, as a slice. Segments that are not finite wait in the batch's order.
-    fn clip_unsure(&mut self, frustum: &Frustum) -> Result<(), NonFiniteAt> {
+    fn clip_unsure(&mut self, level: Level, frustum: &Frustum) -> Result<(), NonFiniteAt> {
         let Unsure {
             count,
             segments,
@@ -135,18 +142,12 @@ impl<T: Real> Out<'_, T> {
             clips,
         } = &mut *self.unsure;
         let counts = &mut StageCounts::default();
-        slice::clip_exact(
-            Level::new(),
-            frustum,
-            segments,
-            Accuracy::Fast,
-            clips,
-            counts,
-        )
-        .map_err(|error| NonFiniteAt {
-            index: numbers[error.index],
-            ..error
-        })?;
+        slice::clip_exact(level, frustum, segments, Accuracy::Fast, clips, counts).map_err(
+            |error| NonFiniteAt {
+                index: numbers[error.index],
+                ..error
+            },
+        )?;
         for (&i, clip) in numbers.iter().zip(clips.iter()) {
             self.classes[i] = clip.class;
             let part = clip.part.as_ref();
@@ -304,6 +305,7 @@ fn cross<S, T, V, const N: usize>(
     planes: &Planes<V>,
     faces: &Faces,
     frustum: &Frustum,
+    put_off: &mut V::PutOff,
     open: &mut Open<T>,
 ) where
     S: Simd,
@@ -315,7 +317,7 @@ fn cross<S, T, V, const N: usize>(
         let ends = ends::<S, T, V, N, ROOM>(simd, open.coordinates.each_ref(), at);
         let values = planes.values::<S, T>(ends[0], ends[1]);
         let found = Crossings::new(planes, &values);
-        let ([entry, exit], sure) = V::cut(faces, open, at, ends, &found);
+        let ([entry, exit], sure) = V::cut(faces, put_off, at..count, ends, &found);
         let entry = found.cut[0].select(entry, planes.zero);
         let exit = found.cut[1].select(exit, planes.one);
         let t0 = found.outside.select(planes.one, entry);
@@ -331,7 +333,7 @@ fn cross<S, T, V, const N: usize>(
         let sure = outside | (found.certain & sure).to_bitmask();
         open.unsure.append(at, present & !sure);
     }
-    V::finish(simd, frustum, open);
+    V::finish(simd, frustum, put_off, open);
 }
 
 /// At the machine's vector width, eight singles at a time.

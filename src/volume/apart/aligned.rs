@@ -4,8 +4,8 @@
 //! A box's edges are the world's axes, so all 26 axes are known before any
 //! box is: along each, the frustum's support is a half space that contains it. Of an edge
 //! of the frustum and an axis of the world it is one only if the edge bounds the
-//! frustum's shadow along that axis; so there are at most 24 of them, and six around the
-//! frustum's bounding box. They are made once, exactly, when first asked for; a box is
+//! frustum's shadow along that axis; so there are 24 of them, and six around the
+//! frustum's bounding box, less those that are the same or a face's. They are made once, exactly, when first asked for; a box is
 //! apart exactly if one of them has all of it outside. That is the test of faces again,
 //! with their filter, their stages and their corners (`half_space.rs`).
 //!
@@ -23,10 +23,10 @@ use super::hull::Hull;
 use crate::exact::Number;
 use crate::frustum::Frustum;
 use crate::frustum::exact_vec::{Dyadic, Dyadic3, cross, dot};
+use crate::volume::VolumeCounts;
 use crate::volume::extent::Extent;
 use crate::volume::half_space::HalfSpace;
 use crate::volume::shape::Aabb;
-use crate::volume::{Containment, VolumeCounts};
 use std::cmp::Ordering;
 
 /// The images of the world's axes in the frame.
@@ -53,7 +53,7 @@ fn to_world(
 
 /// The half spaces that have an axis-aligned box outside of one of them if it is apart from
 /// the frustum, but for those of its faces.
-fn separators(frustum: &Frustum, hull: &Hull) -> Box<[HalfSpace]> {
+fn separators(frustum: &Frustum, hull: &Hull) -> Vec<HalfSpace> {
     let images = images(frustum);
     let mut all = Vec::new();
     let mut add = |normal: &Dyadic3, point: usize| {
@@ -78,7 +78,7 @@ fn separators(frustum: &Frustum, hull: &Hull) -> Box<[HalfSpace]> {
             add(&normal, best);
         }
     }
-    all.into()
+    all
 }
 
 /// What axis-aligned boxes need of a frustum.
@@ -88,9 +88,16 @@ pub(super) struct Aligned {
 }
 
 impl Aligned {
-    pub(super) fn new(frustum: &Frustum) -> Self {
+    /// `faces` are held to before.
+    pub(super) fn new(frustum: &Frustum, faces: &[HalfSpace]) -> Self {
+        let mut all: Vec<HalfSpace> = Vec::new();
+        for half_space in separators(frustum, &Hull::new(frustum.shape())) {
+            if !faces.iter().chain(&all).any(|h| h.is_the_same(&half_space)) {
+                all.push(half_space);
+            }
+        }
         Self {
-            separators: separators(frustum, &Hull::new(frustum.shape())),
+            separators: all.into(),
         }
     }
 
@@ -109,7 +116,7 @@ impl Aligned {
             let is_within = greatest > threshold;
             unsettled |= !is_within;
         }
-        let outside = |h: &HalfSpace| volume.side(&middle, size, h, counts) == Containment::Outside;
+        let outside = |h: &HalfSpace| volume.is_outside(&middle, size, h, counts);
         unsettled && self.separators.iter().any(outside)
     }
 }

@@ -17,9 +17,10 @@
 //!
 //! # The error bounds
 //! With u = 2^-53, a vertex is rounded once, and so is a difference to it: its coordinates are off by
-//! at most `e = u (|start| + 2 |w|)`. Each formula's terms are summed with their magnitudes, and the
-//! bound is at least twice what its roundings add up to. No product leaves the range of doubles,
-//! nor gets near its end: no number but zero is beyond 2^150 or 2^-150.
+//! at most `e = u (|start| + |w|)`. Each formula's terms are summed with their magnitudes, and the
+//! bound is more than one and a half times what its roundings add up to. Of the numbers given none
+//! but zero is beyond 2^150 or 2^-150: no product overflows, and what underflow does is far below
+//! the bounds.
 
 use super::hull::{Edge, Hull};
 use super::ordinary;
@@ -39,8 +40,7 @@ const U: f64 = f64::UNIT_ROUNDOFF;
 #[derive(Clone, Debug)]
 pub(super) struct Balls {
     exact: Skeleton,
-    /// The half spaces' numbers, and their normals' inner products.
-    faces: Vec<[f64; 4]>,
+    /// The inner products of the half spaces' normals.
     products: Vec<[f64; 6]>,
     vertices: Vec<Vec3<f64>>,
     edges: Vec<RoundedEdge>,
@@ -88,7 +88,7 @@ impl Skeleton {
         }
     }
 
-    /// Whether a ball whose middle is outside is apart; of one that is outside of no face.
+    /// Whether a ball is apart that is outside of no face.
     fn is_apart(&self, half_spaces: &[HalfSpace], ball: &Sphere<f64>) -> bool {
         let values: Vec<Dyadic> = half_spaces.iter().map(|h| h.integer(ball.center)).collect();
         if values.iter().all(|v| v.sign() != Ordering::Less) {
@@ -183,7 +183,6 @@ impl Balls {
         let numbers = vertices.iter().chain(edges.iter().map(|e| &e.along));
         Self {
             is_ordinary: numbers.flat_map(|v| v.to_array()).all(ordinary),
-            faces: half_spaces.iter().map(HalfSpace::rounded).collect(),
             products: products.collect(),
             vertices,
             edges,
@@ -216,14 +215,11 @@ impl Balls {
         }
         let size = size(ball.center);
         let (mut values, mut errors) = ([0.0; 6], [0.0; 6]);
-        for (i, (numbers, half_space)) in self.faces.iter().zip(half_spaces).enumerate() {
-            values[i] = value(*numbers, ball.center);
+        for (i, half_space) in half_spaces.iter().enumerate().take(6) {
+            values[i] = value(half_space.rounded(), ball.center);
             errors[i] = half_space.threshold(size);
         }
-        let count = self.faces.len();
-        if (0..count).all(|i| values[i] > errors[i]) {
-            return Some(false);
-        }
+        let count = half_spaces.len().min(6);
         let faces = (0..count).map(|i| self.face(i, &values[..count], &errors));
         let edges = self.edges.iter().map(|edge| edge.foot(ball));
         let vertices = self.vertices.iter().map(|&v| vertex(v, ball));

@@ -1,8 +1,9 @@
 //! A frustum in its frame as the hull of points and rays, where its vertices are its own numbers.
 
 use crate::exact::Number;
+use crate::frustum::Shape;
+use crate::frustum::corners::ends;
 use crate::frustum::exact_vec::{Dyadic, Dyadic3, cross, dot, exact};
-use crate::frustum::{EndRect, Shape};
 use crate::math::Vec3;
 use std::cmp::Ordering;
 
@@ -24,34 +25,9 @@ pub(super) struct Hull {
     pub(super) edges: Vec<Edge>,
 }
 
-/// The corners of an end, going round.
-pub(super) fn around(end: &EndRect) -> [Vec3<f64>; 4] {
-    let (r, z) = (end.rect, end.z);
-    [
-        Vec3::new(r.left, r.bottom, z),
-        Vec3::new(r.right, r.bottom, z),
-        Vec3::new(r.right, r.top, z),
-        Vec3::new(r.left, r.top, z),
-    ]
-}
-
-/// In the frame, the corners of the near end, and those of the far one or the rays.
-pub(super) fn ends(shape: &Shape) -> [[Vec3<f64>; 4]; 2] {
-    let other = match *shape {
-        Shape::Finite { far, .. } => far,
-        Shape::Infinite {
-            slopes, direction, ..
-        } => EndRect {
-            z: direction.sign(),
-            rect: slopes,
-        },
-    };
-    [around(&shape.near()), around(&other)]
-}
-
 impl Hull {
     pub(super) fn new(shape: &Shape) -> Self {
-        let [near, other] = ends(shape).map(|corners| corners.map(exact));
+        let [near, other] = ends(shape);
         let mut hull = Self {
             points: near.to_vec(),
             rays: Vec::new(),
@@ -114,7 +90,7 @@ impl Hull {
     /// Whether the values of `n . x` about `middle` up to `reach` are all less or all greater than
     /// the frustum's.
     pub(super) fn is_separated(&self, normal: &Dyadic3, middle: &Dyadic, reach: &Dyadic) -> bool {
-        let rises = |wanted: Ordering| {
+        let has_ray = |wanted: Ordering| {
             let mut rays = self.rays.iter();
             rays.any(|r| dot(normal, r).sign() == wanted)
         };
@@ -122,8 +98,8 @@ impl Hull {
             let mut points = self.points.iter();
             points.all(|p| (&dot(normal, p) - end).sign() == wanted)
         };
-        all(&(middle + reach), Ordering::Greater) && !rises(Ordering::Less)
-            || all(&(middle - reach), Ordering::Less) && !rises(Ordering::Greater)
+        all(&(middle + reach), Ordering::Greater) && !has_ray(Ordering::Less)
+            || all(&(middle - reach), Ordering::Less) && !has_ray(Ordering::Greater)
     }
 }
 

@@ -13,12 +13,14 @@
 //! ```text
 //! (8 + 4 + 3 + 5) u |N| M = 20 u |N| M
 //! ```
-//! and the threshold is 64 u |N| M. If N is zero the axis is, exactly. No product leaves the range
-//! of doubles, nor gets near its end: no number but zero is beyond 2^150 or 2^-150.
+//! and the threshold is 64 u |N| M. If N is zero the axis is, exactly. Of the numbers given none but
+//! zero is beyond 2^150 or 2^-150: no product overflows, and what underflow does is far below the
+//! threshold.
 
-use super::hull::{Hull, ToFrame, crosses, ends};
+use super::hull::{Hull, ToFrame, crosses};
 use super::ordinary;
-use crate::frustum::exact_vec::{Dyadic, Dyadic3, cross, dot};
+use crate::frustum::corners::ends;
+use crate::frustum::exact_vec::{Dyadic, Dyadic3, Rounded, cross, dot};
 use crate::frustum::{Frustum, Shape};
 use crate::math::{Real, Vec3};
 use crate::volume::VolumeCounts;
@@ -36,7 +38,9 @@ pub(super) struct Oriented {
     origin: Vec3<f64>,
     /// Coordinates of the vertices in the frame; an infinite frustum has each twice.
     vertices: [[f64; 8]; 3],
+    /// Of an infinite frustum.
     rays: Vec<Vec3<f64>>,
+    /// Of the edges: across, along, and from corner to corner.
     directions: [Vec3<f64>; 6],
     /// The largest coordinate of a vertex or a ray; `None` where doubles do not serve.
     reach: Option<f64>,
@@ -79,7 +83,9 @@ fn cross_of_magnitudes(a: Vec3<f64>, b: Vec3<f64>) -> Vec3<f64> {
 impl Oriented {
     pub(super) fn new(frustum: &Frustum) -> Self {
         let shape = frustum.shape();
-        let [near, other] = ends(shape);
+        // They are doubles.
+        let rounded = |v: Dyadic3| Vec3::from(v.map(|x| x.to_f64()));
+        let [near, other] = ends(shape).map(|corners| corners.map(rounded));
         let is_infinite = matches!(shape, Shape::Infinite { .. });
         let far = if is_infinite { near } else { other };
         let all: [Vec3<f64>; 8] = std::array::from_fn(|i| if i < 4 { near[i] } else { far[i - 4] });
@@ -147,20 +153,20 @@ impl Oriented {
         let volume = &self.in_frame(volume)?;
         let (h, m) = (&volume.half_axes, &volume.magnitudes);
         let mut all_overlap = true;
-        let mut settles = |normal: Vec3<f64>, magnitude: Vec3<f64>| {
-            let along = self.along(volume, normal, sum(magnitude));
+        let mut settles = |normal: Vec3<f64>, magnitude: Vec3<f64>, across: Option<usize>| {
+            let along = self.along(volume, normal, sum(magnitude), across);
             all_overlap &= along == Along::Overlapping;
             along == Along::Apart
         };
         for (i, j) in [(0, 1), (1, 2), (2, 0)] {
-            if settles(h[i].cross(h[j]), cross_of_magnitudes(m[i], m[j])) {
+            if settles(h[i].cross(h[j]), cross_of_magnitudes(m[i], m[j]), None) {
                 return Some(true);
             }
         }
-        for direction in self.directions {
+        for (i, direction) in self.directions.into_iter().enumerate() {
             for k in 0..3 {
                 let magnitude = cross_of_magnitudes(magnitude(direction), m[k]);
-                if settles(direction.cross(h[k]), magnitude) {
+                if settles(direction.cross(h[k]), magnitude, i.checked_sub(2)) {
                     return Some(true);
                 }
             }
@@ -168,7 +174,14 @@ impl Oriented {
         all_overlap.then_some(false)
     }
 
-    fn along(&self, volume: &InFrame, normal: Vec3<f64>, magnitude: f64) -> Along {
+    /// Along a normal, which is across a ray by construction where that is told.
+    fn along(
+        &self,
+        volume: &InFrame,
+        normal: Vec3<f64>,
+        magnitude: f64,
+        across: Option<usize>,
+    ) -> Along {
         if magnitude == 0.0 {
             return Along::Overlapping;
         }
@@ -185,8 +198,8 @@ impl Oriented {
         let threshold = ROUNDING * magnitude * volume.size;
         let (below, above) = (least - (middle + reach), (middle - reach) - greatest);
         let sides = [
-            (below, self.rays_rise(normal, threshold)),
-            (above, self.rays_rise(-normal, threshold)),
+            (below, self.rays_rise(normal, threshold, across)),
+            (above, self.rays_rise(-normal, threshold, across)),
         ];
         let mut result = Along::Overlapping;
         for (gap, rise) in sides {
@@ -201,8 +214,11 @@ impl Oriented {
     }
 
     /// Whether no ray goes down along a normal, if that is certain.
-    fn rays_rise(&self, normal: Vec3<f64>, threshold: f64) -> Option<bool> {
-        let rises = self.rays.iter().map(|&ray| normal.dot(ray));
+    fn rays_rise(&self, normal: Vec3<f64>, threshold: f64, across: Option<usize>) -> Option<bool> {
+        let rays = self.rays.iter().enumerate();
+        let rises = rays
+            .filter(|(i, _)| Some(*i) != across)
+            .map(|(_, ray)| normal.dot(*ray));
         let least = rises.fold(f64::INFINITY, |a, b| if b < a { b } else { a });
         if least < -threshold {
             Some(false)
