@@ -2,11 +2,12 @@
 //! inputs that are no volumes.
 #![cfg(feature = "report")]
 
+use frusta::oracle::Oracle;
 use frusta::report::{VolumeKind, VolumeTally, verify_volumes};
 use frusta::samples::{BLOCK, Family, Scene, hard_box, hard_obb, hard_sphere};
 use frusta::{
-    Aabb, Containment, Culler, Face, FaceSet, Frustum, Obb, Pose, Shape, Sphere, Vec3, Volume,
-    VolumeCounts, VolumeError,
+    Aabb, Containment, Corners, Culler, Direction, EndRect, Face, FaceSet, FarCorners, Frustum,
+    Obb, Pose, Rect, Shape, Sphere, Vec3, Volume, VolumeCounts, VolumeError,
 };
 
 #[test]
@@ -282,4 +283,84 @@ fn what_is_no_volume_is_refused() {
     assert_eq!(culler.classify_exact(tiny), Ok(Containment::Inside));
     let huge = Sphere::new([0.0; 3], f64::MAX);
     assert_eq!(culler.classify(huge), Ok(Containment::Crossing));
+}
+
+/// Numbers without a pattern, always the same, in -1..1.
+fn numbers() -> impl FnMut() -> f64 {
+    let mut state = 88_172_645_463_325_252_u64;
+    move || {
+        state ^= state << 13;
+        state ^= state >> 7;
+        state ^= state << 17;
+        (state >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+    }
+}
+
+/// The exact answer is the oracle's; whether it is that they are apart.
+fn check_exact(culler: &Culler, oracle: &Oracle, volume: Volume) -> bool {
+    let found = culler.classify_exact(volume).expect("a volume");
+    let meets = oracle.intersects(&volume);
+    let said = (found, volume, culler.frustum());
+    assert_eq!(found != Containment::Outside, meets, "{said:?}");
+    !meets && culler.classify(volume) != Ok(Containment::Outside)
+}
+
+/// Balls no larger than what rounding takes from their middles, which are on edges and vertices.
+#[test]
+fn balls_as_small_as_rounding_errors() {
+    let mut next = numbers();
+    let mut apart = 0;
+    for family in [Family::Random, Family::OffAxis, Family::FreePose] {
+        for block in 0..40 {
+            let scene = family.scene(8, block);
+            let (culler, oracle) = (Culler::new(scene.frustum()), Oracle::new(scene.frustum()));
+            let Corners { near, far } = scene.frustum().corners();
+            let FarCorners::Points(far) = far else {
+                continue;
+            };
+            for i in 0..4 {
+                for [a, b] in [[near[i], far[i]], [near[i], near[(i + 1) % 4]]] {
+                    for along in [0.0, 0.25, 0.5 + 0.5 * next(), 1.0] {
+                        let middle = a + (b - a) * along;
+                        let size = middle.x.abs() + middle.y.abs() + middle.z.abs();
+                        for k in -8..4 {
+                            let radius = size * (1.0 + next() * 0.5) * 2.0_f64.powi(k - 53);
+                            let ball = Sphere::new(middle, radius).into();
+                            apart += u32::from(check_exact(&culler, &oracle, ball));
+                        }
+                    }
+                }
+            }
+        }
+    }
+    assert!(apart > 100, "{apart}");
+}
+
+/// Boxes with an edge along a ray of an infinite frustum, or nearly so: whether the ray goes down
+/// along the normal of such a box's face is a matter of rounding.
+#[test]
+fn boxes_along_a_ray() {
+    let mut next = numbers();
+    let near = EndRect::new(1.0, -1.0, 1.0, -1.0, 1.0);
+    let shape = Shape::Infinite {
+        near,
+        slopes: Rect::new(-1.0, 1.0, -1.0, 1.0),
+        direction: Direction::PlusZ,
+    };
+    let frustum = Frustum::new(Pose::IDENTITY, shape).expect("a frustum");
+    let (culler, oracle) = (Culler::new(&frustum), Oracle::new(&frustum));
+    let mut apart = 0;
+    for _ in 0..20_000 {
+        let length = 1.0 + next();
+        let nudge = |n: f64| length * (1.0 + f64::EPSILON * (2.0 * n).round());
+        let along = [nudge(next()), nudge(next()), length];
+        let mut vector = |scale: f64| [scale * next(), scale * next(), scale * next()];
+        let half_axes = [along, vector(0.3), vector(0.3)];
+        // About the edge that goes on from x = y = 1.
+        let [x, y, z] = vector(1.0);
+        let center = [4.0 + 0.3 * x, 4.0 + 0.3 * y, 3.7 + 0.3 * z];
+        let volume = Obb::new(center, half_axes).into();
+        apart += u32::from(check_exact(&culler, &oracle, volume));
+    }
+    assert!(apart > 500, "{apart}");
 }

@@ -204,12 +204,7 @@ pub(super) fn value([a, b, c, d]: [f64; 4], p: Vec3<f64>) -> f64 {
 /// How far a value may be off at a size.
 #[inline(always)]
 pub(super) fn threshold(size: f64, constant: f64) -> f64 {
-    // As good as infinite where a sum may overflow.
-    if size < MOST {
-        ROUNDING * size + constant
-    } else {
-        f64::INFINITY
-    }
+    ROUNDING * size + constant
 }
 
 /// The sum of the coordinates' magnitudes.

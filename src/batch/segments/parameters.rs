@@ -235,19 +235,7 @@ fn precisely<S: Simd, const M: usize>(
         #[inline(always)]
         |axis| four(simd, &coordinates[axis + 3], places),
     );
-    let mut from_end = b.simd_lt(a);
-    let ties = a.simd_eq(b);
-    if ties.any_true() {
-        let lesser = places.map(|place| -i64::from(end_is_lesser(coordinates, place)));
-        from_end |= ties & lesser.simd_into(simd);
-    }
+    // From the nearer end; if none is it is half-way from both.
     let tau = a.min(b) / (a + b);
-    from_end.select(a.all(1.0) - tau, tau)
-}
-
-/// Whether the end is lexicographically smaller than the start.
-#[cold]
-fn end_is_lesser<const M: usize>(coordinates: &[[f64; M]; 6], place: usize) -> bool {
-    let at = |from: usize| [0, 1, 2].map(|axis| coordinates[from + axis][place]);
-    at(0) > at(3)
+    b.simd_lt(a).select(a.all(1.0) - tau, tau)
 }

@@ -191,3 +191,28 @@ fn a_parameter_between_two_singles_is_found_precisely() {
     let (_, t0, _) = expected(&frustum, &segment);
     assert_eq!(t0, 0.5 + 2.0 * f32::EPSILON / 2.0);
 }
+
+/// Up to the largest numbers, and down to the least.
+#[test]
+fn every_magnitude_gives_what_each_gives_alone() {
+    fn check<T: Real>(exponents: std::ops::Range<i32>) {
+        let culler = Culler::new(&frustum());
+        let mut next = numbers();
+        for exponent in exponents.step_by(3) {
+            let mut number = || {
+                let near = 3.0 * next();
+                match next() > 0.0 {
+                    true => near * 2.0_f64.powi(exponent),
+                    false => near,
+                }
+            };
+            let mut point = || [number(), number(), number()].map(T::from_f64);
+            let segments: Vec<_> = (0..64).map(|_| Segment::new(point(), point())).collect();
+            for level in levels() {
+                compare(level, &culler, &segments);
+            }
+        }
+    }
+    check::<f32>(if cfg!(miri) { 120..126 } else { -126..126 });
+    check::<f64>(if cfg!(miri) { 900..903 } else { -1022..1022 });
+}
