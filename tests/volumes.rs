@@ -320,7 +320,11 @@ fn balls_as_small_as_rounding_errors() {
             };
             for i in 0..4 {
                 for [a, b] in [[near[i], far[i]], [near[i], near[(i + 1) % 4]]] {
-                    for along in [0.0, 0.25, 0.5 + 0.5 * next(), 1.0] {
+                    for step in 0..24 {
+                        let along = match step {
+                            0 | 1 => f64::from(step),
+                            _ => 0.5 + 0.5 * next(),
+                        };
                         let middle = a + (b - a) * along;
                         let size = middle.x.abs() + middle.y.abs() + middle.z.abs();
                         for k in -8..4 {
