@@ -1,7 +1,7 @@
 //! Batches, as ratios: to one by one, to reading or copying their bytes, and with threads to
 //! without.
 //!
-//! `cargo bench --features parallel --bench batch [-- ROUNDS] [segments|boxes|threads]`. All
+//! `cargo bench --features parallel --bench batch [-- ROUNDS] [segments|boxes|exact|threads]`. All
 //! take turns, a ratio is taken within each round, and medians over the rounds are printed.
 //! Answers are compared with those of one at a time first.
 //!
@@ -16,13 +16,18 @@ mod data;
     reason = "the other benchmarks use more of it"
 )]
 mod mixes;
+mod separating;
 #[path = "../ratios/turns.rs"]
 mod turns;
 
 use data::{BoxColumns, SegmentColumns};
 use frusta::batch::{BoxSet, ContainmentMasks, SegmentIntervals};
-use frusta::{Accuracy, Class, Culler, Pose, Segment, SegmentClip, SegmentClipper, VwProjection};
+use frusta::{
+    Aabb, Accuracy, Class, Containment, Culler, Pose, Segment, SegmentClip, SegmentClipper,
+    VwProjection,
+};
 use mixes::{COUNT, Form, Mix, call, frustum};
+use separating::SeparatingAxes;
 use std::hint::black_box;
 use std::time::Instant;
 use turns::{Pass, take_turns};
@@ -215,6 +220,42 @@ fn boxes(rounds: usize) {
     }
 }
 
+/// One box a call, exactly, beside separating axes in plain arithmetic.
+fn exact(rounds: usize) {
+    println!("\nwhether a box meets the frustum, f32: ns (times as fast as the plain loop)");
+    for (place, pose) in Mix::poses() {
+        let frustum = frustum(Form::Symmetric.shape(), &pose);
+        let culler = &Culler::new(&frustum);
+        for (name, size) in [("small", 0.02), ("large", 0.5)] {
+            let columns = BoxColumns::about(&frustum, size, COUNT);
+            let all: Vec<Aabb<f32>> = (0..COUNT).map(|i| columns.get(i)).collect();
+            let crosses = |b: &&Aabb<f32>| culler.classify(**b) == Ok(Containment::Crossing);
+            let crossing: Vec<Aabb<f32>> = all.iter().filter(crosses).copied().collect();
+            exact_of(&format!("{name}, {place}, all"), rounds, culler, &all);
+            let name = format!("{name}, {place}, crossing");
+            exact_of(&name, rounds, culler, &crossing);
+        }
+    }
+}
+
+fn exact_of(name: &str, rounds: usize, culler: &Culler, all: &[Aabb<f32>]) {
+    let axes = &SeparatingAxes::new(culler.frustum());
+    let meets = |b: &Aabb<f32>| culler.classify_exact(*b) != Ok(Containment::Outside);
+    // Plain arithmetic may be wrong where they touch.
+    let differ =
+        |rival: &dyn Fn(&Aabb<f32>) -> bool| all.iter().filter(|b| rival(b) != meets(b)).count();
+    assert!(differ(&|b| axes.meets(b)) < 9 && differ(&|b| axes.meets_slabs(b)) < 9);
+    let each = |ask: &dyn Fn(&Aabb<f32>) -> bool| {
+        let visible = all.iter().filter(|b| ask(black_box(b))).count();
+        black_box(visible);
+    };
+    let plain = timed(all.len(), || each(&|b| axes.meets(b)));
+    let slabs = timed(all.len(), || each(&|b| axes.meets_slabs(b)));
+    let exact = timed(all.len(), || each(&meets));
+    let passes = vec![("plain loop", plain), ("slabs", slabs), ("exact", exact)];
+    row(name, rounds, passes);
+}
+
 fn threads(rounds: usize) {
     let threads = rayon::current_num_threads();
     println!("\n{threads} threads: ns (times as fast as one)");
@@ -265,7 +306,7 @@ fn main() {
     let args: Vec<String> = std::env::args().skip(1).collect();
     let rounds = args.iter().find_map(|arg| arg.parse().ok());
     let rounds = rounds.unwrap_or(10_usize).max(1);
-    let parts = ["segments", "boxes", "threads"];
+    let parts = ["segments", "boxes", "exact", "threads"];
     let asked = args.iter().find(|arg| parts.contains(&arg.as_str()));
     let wanted = |part: &str| asked.is_none_or(|asked| asked == part);
     if wanted("segments") {
@@ -274,6 +315,9 @@ fn main() {
     }
     if wanted("boxes") {
         boxes(rounds);
+    }
+    if wanted("exact") {
+        exact(rounds);
     }
     if wanted("threads") {
         threads(rounds);

@@ -21,7 +21,7 @@
 
 use super::apart::Apart;
 use super::extent::{Extent, with_extent};
-use super::half_space::{HalfSpace, MOST, threshold};
+use super::half_space::{HalfSpace, MOST, size, threshold, value};
 use super::rows::RowsPair;
 use super::shape::{Volume, VolumeError};
 use super::{Containment, VolumeCounts};
@@ -67,7 +67,7 @@ pub struct Culler {
 
 /// The rounded half spaces side by side.
 #[derive(Clone, Debug)]
-struct Planes {
+pub(super) struct Planes {
     /// Normals and offsets; where there is no face, one that everything is inside of.
     numbers: [[f64; 6]; 4],
     lengths: [f64; 6],
@@ -90,6 +90,18 @@ impl Planes {
             planes.constant = planes.constant.max(h.constant());
         }
         planes
+    }
+
+    /// Whether a point is certainly inside of all.
+    #[inline(always)]
+    pub(super) fn certainly_have(&self, p: Vec3<f64>) -> bool {
+        let mut least = MOST;
+        for i in 0..6 {
+            let [a, b, c, d] = &self.numbers;
+            let at = value([a[i], b[i], c[i], d[i]], p);
+            least = if at < least { at } else { least };
+        }
+        least > threshold(size(p), self.constant)
     }
 
     /// What is certain of a volume by rounded values.
@@ -172,6 +184,10 @@ impl Culler {
 
     pub(super) fn apart(&self) -> &Apart {
         &self.apart
+    }
+
+    pub(super) fn planes(&self) -> &Planes {
+        &self.planes
     }
 
     pub(crate) fn half_spaces(&self) -> &[HalfSpace] {

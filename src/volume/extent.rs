@@ -116,8 +116,8 @@ fn around(middle: f64, reach: f64) -> [f64; 2] {
 
 /// A box's middle and half extents.
 pub(super) struct Centred {
-    center: Vec3<f64>,
-    half: Vec3<f64>,
+    pub(super) center: Vec3<f64>,
+    pub(super) half: Vec3<f64>,
 }
 
 impl Aabb<f64> {

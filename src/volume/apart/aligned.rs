@@ -24,10 +24,11 @@ use crate::exact::Number;
 use crate::frustum::Frustum;
 use crate::frustum::exact_vec::{Dyadic, Dyadic3, cross, dot};
 use crate::volume::VolumeCounts;
-use crate::volume::extent::Extent;
-use crate::volume::half_space::HalfSpace;
+use crate::volume::extent::{Centred, Extent};
+use crate::volume::half_space::{HalfSpace, MOST, threshold};
 use crate::volume::shape::Aabb;
 use std::cmp::Ordering;
+use wide::f64x4;
 
 /// The images of the world's axes in the frame.
 fn images(frustum: &Frustum) -> [Dyadic3; 3] {
@@ -81,10 +82,46 @@ fn separators(frustum: &Frustum, hull: &Hull) -> Vec<HalfSpace> {
     all
 }
 
+/// Four half spaces side by side: normals and offsets, and the normals' magnitudes.
+#[derive(Clone, Debug)]
+struct Four {
+    numbers: [f64x4; 4],
+    magnitudes: [f64x4; 3],
+}
+
+impl Four {
+    /// Where there are fewer, everything is inside of the others.
+    fn new(some: &[HalfSpace]) -> Self {
+        let nothing = [0.0, 0.0, 0.0, MOST];
+        let rows = [0, 1, 2, 3].map(|i| some.get(i).map_or(nothing, HalfSpace::rounded));
+        let numbers = [0, 1, 2, 3].map(|k| f64x4::new(rows.map(|row| row[k])));
+        let [a, b, c, _] = numbers;
+        Self {
+            numbers,
+            magnitudes: [a.abs(), b.abs(), c.abs()],
+        }
+    }
+
+    /// The least of a box's greatest values, as [`Extent::values`] has them.
+    #[inline(always)]
+    fn least(&self, Centred { center, half }: &Centred) -> f64 {
+        let all = f64x4::splat;
+        let ([a, b, c, d], [x, y, z]) = (self.numbers, self.magnitudes);
+        let middle = (a * all(center.x) + b * all(center.y)) + (c * all(center.z) + d);
+        let reach = x * all(half.x) + y * all(half.y) + z * all(half.z);
+        let [a, b, c, d] = (middle + reach).to_array();
+        let less = |a: f64, b: f64| if b < a { b } else { a };
+        less(less(a, b), less(c, d))
+    }
+}
+
 /// What axis-aligned boxes need of a frustum.
 #[derive(Clone, Debug)]
 pub(super) struct Aligned {
     separators: Box<[HalfSpace]>,
+    fours: Box<[Four]>,
+    /// The greatest of the thresholds' constant parts.
+    constant: f64,
 }
 
 impl Aligned {
@@ -96,7 +133,10 @@ impl Aligned {
                 all.push(half_space);
             }
         }
+        let constants = all.iter().map(HalfSpace::constant);
         Self {
+            fours: all.chunks(4).map(Four::new).collect(),
+            constant: constants.fold(0.0, f64::max),
             separators: all.into(),
         }
     }
@@ -105,18 +145,16 @@ impl Aligned {
     pub(super) fn is_apart(&self, volume: &Aabb<f64>, counts: &mut VolumeCounts) -> bool {
         let middle = volume.middle();
         let size = Aabb::size(&middle);
-        // Most separators settle it, one way or the other, by rounded values.
-        let mut unsettled = false;
-        for half_space in &self.separators {
-            let [_, greatest] = Aabb::values(&middle, half_space.rounded(), half_space.length());
-            let threshold = half_space.threshold(size);
-            if greatest < -threshold {
+        let threshold = threshold(size, self.constant);
+        let mut is_within = true;
+        for four in &self.fours {
+            let least = four.least(&middle);
+            if least < -threshold {
                 return true;
             }
-            let is_within = greatest > threshold;
-            unsettled |= !is_within;
+            is_within &= least > threshold;
         }
         let outside = |h: &HalfSpace| volume.is_outside(&middle, size, h, counts);
-        unsettled && self.separators.iter().any(outside)
+        !is_within && self.separators.iter().any(outside)
     }
 }

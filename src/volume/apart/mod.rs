@@ -24,7 +24,7 @@ mod hull;
 mod oriented;
 
 use super::extent::with_extent;
-use super::half_space::{HalfSpace, size, value};
+use super::half_space::HalfSpace;
 use super::shape::{Aabb, Obb, Sphere, Volume, VolumeError};
 use super::{Containment, Culler, VolumeCounts};
 use crate::frustum::Frustum;
@@ -54,16 +54,6 @@ struct Asked<'a> {
     frustum: &'a Frustum,
     half_spaces: &'a [HalfSpace],
     apart: &'a Apart,
-}
-
-impl Asked<'_> {
-    /// Whether a point is in the frustum, by rounded values; most volumes that meet it have their
-    /// middle there.
-    fn certainly_has(&self, p: Vec3<f64>) -> bool {
-        let size = size(p);
-        let mut half_spaces = self.half_spaces.iter();
-        half_spaces.all(|h| value(h.rounded(), p) > h.threshold(size))
-    }
 }
 
 /// A volume of which that can be known.
@@ -179,7 +169,9 @@ impl Culler {
             half_spaces: self.half_spaces(),
             apart: self.apart(),
         };
-        let is_apart = !asked.certainly_has(volume.point()) && volume.is_apart(&asked, counts);
+        // Most volumes that meet the frustum have their middle in it.
+        let is_apart =
+            !self.planes().certainly_have(volume.point()) && volume.is_apart(&asked, counts);
         counts.asked += 1;
         counts.false_accepts += u64::from(is_apart);
         is_apart
