@@ -220,6 +220,10 @@ impl Balls {
             errors[i] = half_space.threshold(size);
         }
         let count = half_spaces.len().min(6);
+        // No foot tells of a middle that is inside of all.
+        if (0..count).all(|i| values[i] > errors[i]) {
+            return Some(false);
+        }
         let faces = (0..count).map(|i| self.face(i, &values[..count], &errors));
         let edges = self.edges.iter().map(|edge| edge.foot(ball));
         let vertices = self.vertices.iter().map(|&v| vertex(v, ball));
