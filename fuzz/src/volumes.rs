@@ -66,7 +66,11 @@ fn check_volume(culler: &Culler, oracle: &Oracle, volume: Volume) {
         assert_eq!(found, oracle.classify(&volume), "{volume:?}\n{frustum:?}");
         let exact = culler.classify_exact(volume).expect("a volume");
         let meets = oracle.intersects(&volume);
-        assert_eq!(exact != Containment::Outside, meets, "{volume:?}\n{frustum:?}");
+        assert_eq!(
+            exact != Containment::Outside,
+            meets,
+            "{volume:?}\n{frustum:?}"
+        );
         assert!(!meets || exact == found, "{volume:?}\n{frustum:?}");
     }
 }

@@ -372,6 +372,40 @@ fn threads_do_not_change_what_is_verified() {
 }
 
 #[test]
+fn volumes_are_verified_as_json_too() {
+    let with = |threads| {
+        let mut args = vec![
+            "verify",
+            "--volumes",
+            "--cases",
+            "200",
+            "--family",
+            "rotated",
+        ];
+        args.extend(["--json", "--threads", threads]);
+        rows(&args)
+    };
+    let one = with("1");
+    assert_eq!(one, with("2"));
+    let kinds: Vec<_> = one.iter().map(|row| row["kind"].as_str()).collect();
+    let names = ["box", "box-f32", "obb", "sphere", "sphere-f32"];
+    assert_eq!(kinds, names.map(Some));
+    for row in &one {
+        let count = |key: &str| row[key].as_u64().unwrap();
+        assert_eq!(count("outside") + count("crossing") + count("inside"), 200);
+        for key in [
+            "wrong_class",
+            "wrongly_outside",
+            "wrong_in_batch",
+            "wrong_exact",
+        ] {
+            assert_eq!(count(key), 0, "{row}");
+        }
+        assert!(count("false_accepts") > 0, "{row}");
+    }
+}
+
+#[test]
 fn wrong_usage_is_told() {
     for (args, reason) in [
         (["verify", "--family", "nowhere"], "no family \"nowhere\""),

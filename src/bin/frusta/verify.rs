@@ -37,7 +37,7 @@ pub(crate) struct VerifyArgs {
     #[arg(long)]
     json: bool,
     /// Boxes, oriented boxes and spheres instead of segments: COUNT of each kind in each family
-    #[arg(long, conflicts_with = "json")]
+    #[arg(long)]
     volumes: bool,
     /// List the families instead
     #[arg(long)]
@@ -64,7 +64,7 @@ pub(crate) fn run(args: &VerifyArgs) -> Result<ExitCode, Failure> {
         singles: true,
     };
     if args.volumes {
-        return volumes(&options);
+        return volumes(&options, args.json);
     }
     let bar = progress_bar(options.total());
     let mut written = Ok(());
@@ -92,22 +92,31 @@ pub(crate) fn run(args: &VerifyArgs) -> Result<ExitCode, Failure> {
 }
 
 /// Bounding volumes, by themselves and in batches.
-fn volumes(options: &Options) -> Result<ExitCode, Failure> {
+fn volumes(options: &Options, is_json: bool) -> Result<ExitCode, Failure> {
     let kinds = VolumeKind::ALL.len() as u64;
     let bar = progress_bar(options.families.len() as u64 * kinds * options.cases);
-    print(&format!("{}\n", VolumeRow::heading()))?;
+    let say = |text: String| match is_json {
+        true => Ok(()),
+        false => bar.suspend(|| print(&text)),
+    };
+    say(format!("{}\n", VolumeRow::heading()))?;
     let mut sums = VolumeKind::ALL.map(|kind| (kind, VolumeTally::default()));
+    let mut all = Vec::new();
     for &family in &options.families {
         let done = |cases| bar.inc(cases);
         let rows = verify_volumes(family, options.cases, options.seed, options.threads, &done);
         for row in &rows {
-            bar.suspend(|| print(&format!("{row}\n")))?;
+            say(format!("{row}\n"))?;
             sums[row.kind as usize].1 += row.tally;
+            all.push(volumes_to_json(row, options.seed));
         }
     }
-    bar.finish_and_clear();
     for (kind, tally) in &sums {
-        print(&format!("{:<18} {:<10} {tally}\n", "all", kind.name()))?;
+        say(format!("{:<18} {:<10} {tally}\n", "all", kind.name()))?;
+    }
+    bar.finish_and_clear();
+    if is_json {
+        print(&format!("{:#}\n", Value::from(all)))?;
     }
     Ok(if sums.iter().all(|(_, tally)| tally.is_clean()) {
         ExitCode::SUCCESS
@@ -148,6 +157,29 @@ fn to_json(row: &FamilyRow, seed: u64) -> Value {
         object[format!("wrong_{}", kind.name().replace('-', "_"))] = json!(row.count(kind));
     }
     object
+}
+
+/// The same of volumes.
+fn volumes_to_json(row: &VolumeRow, seed: u64) -> Value {
+    let (tally, counts) = (&row.tally, &row.tally.counts);
+    let [outside, crossing, inside] = tally.classes;
+    json!({
+        "family": row.family.name(),
+        "kind": row.kind.name(),
+        "seed": seed,
+        "cases": tally.cases,
+        "outside": outside,
+        "crossing": crossing,
+        "inside": inside,
+        "wrong_class": tally.wrong,
+        "wrongly_outside": tally.wrongly_outside,
+        "wrong_in_batch": tally.wrong_in_batch,
+        "wrong_exact": tally.wrong_exact,
+        "false_accepts": counts.false_accepts,
+        "filter_failures": counts.filter_failures,
+        "expansions": counts.expansions,
+        "integers": counts.integers,
+    })
 }
 
 const LEGEND: &str = "\
