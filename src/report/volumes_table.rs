@@ -102,7 +102,7 @@ mod tests {
         plan.rounds = 0;
         assert_eq!(
             volumes(&plan, &|_| {}).to_string().matches(" -\n").count(),
-            10
+            13
         );
     }
 }
