@@ -34,6 +34,8 @@ impl Display for Failure {
 /// A piece of a file for a message: quoted, and short whatever the file holds.
 pub(crate) fn quote(text: &str) -> String {
     const LONGEST: usize = 40;
+    // Escaped before it is measured, as below.
+    let text = one_line(&text.chars().take(LONGEST + 1).collect::<String>());
     if text.chars().nth(LONGEST).is_some() {
         let head: String = text.chars().take(LONGEST).collect();
         format!("\"{head}...\"")
@@ -70,4 +72,22 @@ pub(crate) fn one_line(text: &str) -> String {
         }
     }
     line
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Found by fuzzing: forty characters that a terminal must not get, six for each.
+    #[test]
+    fn a_quoted_text_of_control_characters_is_short() {
+        assert_eq!(quote("near"), "\"near\"");
+        assert_eq!(quote("a\nb"), "\"a\\nb\"");
+        let deleted = quote(&format!("z{}rig", "\u{7f}".repeat(36)));
+        assert!(deleted.starts_with("\"z\\u{7f}\\u{7f}"), "{deleted}");
+        assert!(deleted.ends_with("...\""), "{deleted}");
+        assert_eq!(deleted.chars().count(), 45);
+        assert_eq!(quote(&"x".repeat(40)).len(), 42);
+        assert_eq!(quote(&"x".repeat(41)).len(), 45);
+    }
 }
