@@ -7,13 +7,9 @@ use crate::frustum::{Direction, EndRect, Shape};
 use crate::math::{Pose, Rect};
 use crate::math::{Segment, Vec3};
 use crate::samples::{BLOCK, Family};
+use crate::simd::levels;
 use crate::volume::Rows;
 use crate::volume::{Aabb, Sphere, VolumeError};
-
-/// The widest registers of this machine, and those that every one has.
-fn levels() -> [Level; 2] {
-    [Level::new(), Level::baseline()]
-}
 
 /// Boxes between the ends of a family's segments, which are near faces, edges and corners.
 fn boxes<T: Real>(segments: &[Segment<T>]) -> Vec<Aabb<T>> {

@@ -1,6 +1,19 @@
 //! The latest entry and the earliest exit of a register of segments, and whether they are certain.
+//!
+//! # Which side a parameter is on
+//! A face whose value falls from a start to an end is left at `t = a / (a - b)`, one whose value
+//! rises is entered there, if it is met at all: t is less than 0 where the segment began beyond an
+//! entry, more than 1 where it ends before an exit. So the signs of differences tell entries from
+//! exits, and what is not met needs no mask: it is never the last nor the first of those that are.
+//! That holds for rounded parameters: a value beyond its threshold is more than 8 u of any
+//! difference, and a parameter is off by less than 4 u of itself.
+//!
+//! # One difference for near and far
+//! Their values rise and fall together: one of them is entered, the other left. The difference of
+//! near's values stands for both, and adds 2 u (S + |d|) to what far's parameter is off: 7.1 u S +
+//! 6.1 u |d| of the 8 of each that a threshold has (`planes.rs`).
 
-use super::planes::{Planes, Values};
+use super::planes::Planes;
 use crate::math::Real;
 use fearless_simd::prelude::*;
 
@@ -11,84 +24,135 @@ type Mask<S, V> = <V as SimdBase<S>>::Mask;
 pub(super) struct Crossings<S: Simd, V: SimdFloat<S>> {
     /// The face, by number, at which a segment enters last, and the one at which it leaves first;
     /// of one that does not, some face.
-    pub(super) faces: [V; 2],
+    pub(super) faces: [V::Bits; 2],
     /// Whether it does.
     pub(super) cut: [Mask<S, V>; 2],
     /// The entry certainly comes after the exit.
     pub(super) outside: Mask<S, V>,
     /// The entry certainly comes before the exit, and each certainly is at that face alone.
     pub(super) certain: Mask<S, V>,
+    /// The size of its coordinates, as [`Size::sum`].
+    pub(super) size: V,
 }
 
-/// The greatest of some numbers, and what comes after it.
-struct Greatest<V> {
+/// The latest of some parameters, and what comes before it.
+struct Latest<V> {
     first: V,
     second: V,
-    /// Where the first was found.
-    face: V,
 }
 
-impl<V: Copy> Greatest<V> {
+impl<V: Copy> Latest<V> {
     #[inline(always)]
-    fn than(none: V, face: V) -> Self {
+    fn add<S: Simd>(&mut self, t: V)
+    where
+        V: SimdFloat<S>,
+    {
+        self.second = self.second.max(self.first.min(t));
+        self.first = self.first.max(t);
+    }
+}
+
+/// The earliest of some parameters, and what comes after it.
+struct Earliest<V> {
+    first: V,
+    second: V,
+}
+
+impl<V: Copy> Earliest<V> {
+    #[inline(always)]
+    fn add<S: Simd>(&mut self, t: V)
+    where
+        V: SimdFloat<S>,
+    {
+        self.second = self.second.min(self.first.max(t));
+        self.first = self.first.min(t);
+    }
+}
+
+/// The smallest magnitudes that matter.
+struct Smallest<V> {
+    /// Of all values.
+    value: V,
+    /// Of each face's larger value: no crossing's difference is smaller.
+    difference: V,
+}
+
+impl<V: Copy> Smallest<V> {
+    #[inline(always)]
+    fn of<S: Simd>(a: V, b: V) -> Self
+    where
+        V: SimdFloat<S>,
+    {
+        let (a, b) = (a.abs(), b.abs());
         Self {
-            first: none,
-            second: none,
-            face,
+            value: a.min(b),
+            difference: a.max(b),
         }
     }
 
     #[inline(always)]
-    fn add<S: Simd>(&mut self, value: V, face: V)
+    fn add<S: Simd>(&mut self, a: V, b: V)
     where
         V: SimdFloat<S>,
     {
-        let later = value.simd_gt(self.first);
-        self.second = self.second.max(self.first.min(value));
-        self.first = self.first.max(value);
-        self.face = later.select(face, self.face);
+        let other = Self::of::<S>(a, b);
+        self.value = self.value.min(other.value);
+        self.difference = self.difference.min(other.difference);
     }
 }
 
 impl<S: Simd, V: SimdFloat<S, Element: Real>> Crossings<S, V> {
     #[inline(always)]
-    pub(super) fn new(planes: &Planes<V>, values: &Values<V>) -> Self {
+    pub(super) fn new(planes: &Planes<S, V>, ends: &[[V; 3]; 2]) -> Self {
         let (zero, one) = (planes.zero, planes.one);
-        // Parameters of entries, and of exits, negative; where there is none:
-        let none = [-one, -(one + one)];
-        let mut entry = Greatest::than(none[0], planes.numbers[0]);
-        let mut exit = Greatest::than(none[1], planes.numbers[0]);
-        let mut scales = zero;
-        let mut nearest = values.start[0].abs().min(values.end[0].abs());
-        for i in 0..6 {
-            let (a, b) = (values.start[i], values.end[i]);
-            if i > 0 {
-                nearest = nearest.min(a.abs().min(b.abs()));
-            }
-            let scale = one / (a - b);
-            let t = a * scale;
-            let (entering, leaving) = (a.simd_lt(zero), b.simd_lt(zero));
-            entry.add::<S>(entering.select(t, none[0]), planes.numbers[i]);
-            exit.add::<S>(leaving.select(-t, none[1]), planes.numbers[i]);
-            scales = scales.max((entering ^ leaving).select(scale.abs(), zero));
+        let [p, q] = ends;
+        let [start, end] = [planes.near_far(p), planes.near_far(q)];
+        let difference = start[0] - end[0];
+        let scale = one / difference;
+        // What comes before all, and after all; an infinity has no room for a number.
+        let (before, after) = (-one, one + one);
+        let near = (start[0] * scale).min(after);
+        let far = (start[1] * -scale).min(after).max(before);
+        let (near, far) = (planes.numbered(near, 0), planes.numbered(far, 1));
+        let rises = difference.simd_lt(zero);
+        let mut entry = Latest {
+            first: rises.select(near, far),
+            second: before,
+        };
+        let mut exit = Earliest {
+            first: rises.select(far, near),
+            second: after,
+        };
+        let mut smallest = Smallest::of::<S>(start[0], end[0]);
+        smallest.add::<S>(start[1], end[1]);
+        for side in 0..4 {
+            let (a, b) = (planes.side(side, p), planes.side(side, q));
+            let difference = a - b;
+            let t = planes.numbered((a * (one / difference)).min(after), 2 + side);
+            let rises = difference.simd_lt(zero);
+            entry.add::<S>(rises.select(t, before));
+            exit.add::<S>(rises.select(after, t));
+            smallest.add::<S>(a, b);
         }
+        let size = planes.size(ends);
         // What two parameters can be off, together.
-        let error = planes.error::<S, V::Element>(values, scales);
+        let error = planes.error(&size, one / smallest.difference);
         let error = error + error;
-        let overlap = entry.first + exit.first;
-        let signs = nearest.simd_gt(values.threshold) & planes.covers::<S, V::Element>(values);
-        let half = <V::Element as Real>::from_f64(-0.5);
-        let enters = entry.first.simd_gt(half);
-        let leaves = exit.first.simd_gt(half - <V::Element as Real>::ONE);
-        let apart = |of: &Greatest<V>| of.second.simd_lt(of.first - error);
+        let overlap = entry.first - exit.first;
+        let signs = smallest.value.simd_gt(size.threshold) & planes.covers(&size);
+        let enters = entry.first.simd_gt(zero);
+        let leaves = exit.first.simd_lt(one);
+        let entry_alone = entry.second.simd_lt(entry.first - error);
+        let exit_alone = exit.second.simd_gt(exit.first + error);
         Crossings {
-            faces: [entry.face, exit.face],
+            faces: [planes.number(entry.first), planes.number(exit.first)],
             cut: [enters, leaves],
             outside: signs & overlap.simd_gt(error),
             certain: signs
                 & overlap.simd_lt(-error)
-                & (apart(&entry) | !enters)
-                & (apart(&exit) | !leaves),
+                & (entry_alone | !enters)
+                & (exit_alone | !leaves),
+            size: size.sum,
         }
     }
 }

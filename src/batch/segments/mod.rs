@@ -4,14 +4,15 @@
 //! ```text
 //! for each block of 256 segments:
 //!     triage      the values of all faces at both ends; what is outside of one, or
-//!                 inside of all, is settled; the rest is packed side by side
+//!                 inside of all, is marked; the rest is packed side by side
 //!     crossing    latest entry and earliest exit of what is packed, from the same values
 //!                 in the segments' own type, if their order is certain
 //!     parameters  in doubles, each lane by its own faces; of doubles face by face, in
 //!                 double-double: the bits of a segment alone
+//!     close       what is packed goes back between the marks
 //!     unsure      what is not certain is clipped as a slice, in doubles
 //! ```
-//! The first two are in the segments' type, eight singles a register, and decide nothing
+//! The first two are in the segments' type, eight singles a register or sixteen, and decide nothing
 //! that their error bound does not prove; the third is the rule of `clip/exact/points.rs`
 //! for what they decided. So answers are those of [`Frustum::clip_segment`], bit for bit.
 //! Nothing branches on a segment, as in `clip/slice/`.
@@ -19,6 +20,8 @@
 //! [`Frustum::clip_segment`]: crate::Frustum::clip_segment
 
 mod crossings;
+mod halves;
+mod marks;
 mod open;
 mod parameters;
 mod planes;

@@ -1,39 +1,40 @@
 //! What triage leaves open of a block, side by side.
 
+use super::marks::Marks;
 use super::queues::{BLOCK, Queue, ROOM};
-use crate::clip::Class;
 use crate::math::{Real, Segment, Vec3};
 use fearless_simd::prelude::*;
 
 /// What of a block triage leaves open.
 pub(super) struct Open<T> {
-    /// Which segments.
-    pub(super) numbers: Queue,
+    /// How many.
+    pub(super) len: usize,
     /// Their coordinates: starts, then ends.
     pub(super) coordinates: [[T; ROOM]; 6],
-    /// What is found of each.
-    pub(super) classes: [Class; ROOM],
+    /// What is found of each: 1 and 0 of what is outside.
     pub(super) t0: [T; ROOM],
     pub(super) t1: [T; ROOM],
     /// Places of what is not certain.
     pub(super) unsure: Queue,
+    /// Which segments they are, once they are listed.
+    numbers: Queue,
 }
 
 impl<T: Real> Open<T> {
     pub(super) fn new() -> Self {
         Self {
-            numbers: Queue::new(),
+            len: 0,
             coordinates: [[T::ZERO; ROOM]; 6],
-            classes: [Class::Outside; ROOM],
             t0: [T::ZERO; ROOM],
             t1: [T::ZERO; ROOM],
             unsure: Queue::new(),
+            numbers: Queue::new(),
         }
     }
 
     #[inline(always)]
     pub(super) fn clear(&mut self) {
-        self.numbers.clear();
+        self.len = 0;
         self.unsure.clear();
     }
 
@@ -43,7 +44,7 @@ impl<T: Real> Open<T> {
     where
         V: SimdFloat<S, Element = T>,
     {
-        let to = self.numbers.len();
+        let to = self.len.min(BLOCK);
         let to = to..to + N;
         let [a, b, c, d, e, f] = &mut self.coordinates;
         let [p, q] = ends;
@@ -53,9 +54,25 @@ impl<T: Real> Open<T> {
         q[0].compress(open).store_slice(&mut d[to.clone()]);
         q[1].compress(open).store_slice(&mut e[to.clone()]);
         q[2].compress(open).store_slice(&mut f[to]);
+        self.len += open.to_bitmask().count_ones() as usize;
     }
 
-    /// Puts the coordinates side by side, where registers cannot be packed.
+    /// Lists which segments they are.
+    #[inline(always)]
+    pub(super) fn list<S, V, const N: usize>(&mut self, simd: S, marks: &Marks<T>)
+    where
+        S: Simd,
+        V: SimdFloat<S, Element = T>,
+    {
+        self.numbers.clear();
+        for at in (0..BLOCK).step_by(N) {
+            let open = marks.open::<S, V, N>(simd, at);
+            self.numbers.append::<N>(at, open.to_bitmask());
+        }
+        self.len = self.numbers.len();
+    }
+
+    /// Puts the coordinates of what is listed side by side.
     #[inline(always)]
     pub(super) fn gather(&mut self, block: [&[T; BLOCK]; 6]) {
         let [a, b, c, d, e, f] = &mut self.coordinates;
@@ -70,12 +87,26 @@ impl<T: Real> Open<T> {
         }
     }
 
-    /// One of the segments.
-    pub(super) fn segment(&self, place: usize) -> Segment<T> {
-        let at = |k: usize| self.coordinates[k][place];
-        Segment {
-            start: Vec3::new(at(0), at(1), at(2)),
-            end: Vec3::new(at(3), at(4), at(5)),
+    /// Writes what was found of what is listed to its places.
+    #[inline(always)]
+    pub(super) fn scatter(&self, t0: &mut [T; BLOCK], t1: &mut [T; BLOCK]) {
+        for (place, &item) in self.numbers.items().iter().enumerate() {
+            let i = usize::from(item) % BLOCK;
+            t0[i] = self.t0[place];
+            t1[i] = self.t1[place];
         }
+    }
+
+    /// The segments that are not certain, of what is listed, with their numbers.
+    pub(super) fn unsure(&self) -> impl Iterator<Item = (usize, Segment<T>)> + '_ {
+        self.unsure.items().iter().map(|&place| {
+            let place = usize::from(place) % BLOCK;
+            let at = |k: usize| self.coordinates[k][place];
+            let segment = Segment {
+                start: Vec3::new(at(0), at(1), at(2)),
+                end: Vec3::new(at(3), at(4), at(5)),
+            };
+            (self.numbers.at(place), segment)
+        })
     }
 }

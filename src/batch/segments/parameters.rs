@@ -7,6 +7,7 @@
 //! be said so: their ends wait in a queue of their face.
 
 use super::crossings::Crossings;
+use super::halves::Halves;
 use super::open::Open;
 use super::queues::Queue;
 use crate::exact::float::Lanes;
@@ -14,47 +15,28 @@ use crate::frustum::Frustum;
 use crate::math::Real;
 use crate::volume::Rows;
 use fearless_simd::prelude::*;
-use fearless_simd::{f32x8, f64x4, i32x8};
+use fearless_simd::{f32x8, f32x16, f64x4};
 use std::ops::Range;
 
 /// What t is off beside its values' errors, and the rule's own error of 2.5 u, with some room:
 /// 16 u.
 const ROUNDINGS: f64 = 1.7763568394002505e-15;
 
-/// Half spaces in doubles, to look one up for each lane.
-pub(super) struct Faces {
-    /// Each face's normal and offset.
-    numbers: [[f64; 8]; 4],
-    factor: f64,
-    constant: f64,
-}
-
-impl Faces {
-    pub(super) fn new(rows: &Rows<f64>) -> Self {
-        let mut numbers = [[0.0; 8]; 4];
-        for i in 0..6 {
-            let ([x, y, z], offset) = rows.face(i);
-            for (all, number) in numbers.iter_mut().zip([x, y, z, offset]) {
-                all[i] = number;
-            }
-        }
-        Self {
-            numbers,
-            factor: rows.factor,
-            constant: rows.constant,
-        }
-    }
-}
-
 /// A register of segments' coordinates, and how their ends that are cut are found.
 pub(super) trait Cut<S: Simd>: SimdFloat<S, Element: Real> {
+    /// The frustum's faces as they are asked.
+    type Faces;
+
     /// What is put off until all of a block is known.
     type PutOff: Default;
+
+    /// From its faces' half spaces.
+    fn faces(simd: S, rows: &Rows<f64>) -> Self::Faces;
 
     /// The parameters of entry and exit, where they are cut, of those in these places, and which
     /// of them are found. Or they are put off, as certain as they are.
     fn cut(
-        faces: &Faces,
+        faces: &Self::Faces,
         put_off: &mut Self::PutOff,
         present: Range<usize>,
         ends: [[Self; 3]; 2],
@@ -70,88 +52,122 @@ pub(super) trait Cut<S: Simd>: SimdFloat<S, Element: Real> {
     );
 }
 
-impl<S: Simd> Cut<S> for f32x8<S> {
-    type PutOff = ();
+/// Singles find their parameters where they stand.
+macro_rules! cut_singles {
+    ($singles:ident) => {
+        impl<S: Simd> Cut<S> for $singles<S> {
+            type Faces = Faces<S, Self>;
+            type PutOff = ();
+
+            #[inline(always)]
+            fn faces(simd: S, rows: &Rows<f64>) -> Faces<S, Self> {
+                Faces::new(simd, rows)
+            }
+
+            #[inline(always)]
+            fn cut(
+                faces: &Faces<S, Self>,
+                (): &mut (),
+                _: Range<usize>,
+                ends: [[Self; 3]; 2],
+                found: &Crossings<S, Self>,
+            ) -> ([Self; 2], Self::Mask) {
+                faces.cut(ends, found)
+            }
+
+            #[inline(always)]
+            fn finish(_: S, _: &Frustum, (): &mut (), _: &mut Open<f32>) {}
+        }
+    };
+}
+
+cut_singles!(f32x8);
+cut_singles!(f32x16);
+
+/// Half spaces in doubles, to look one up for each lane.
+pub(super) struct Faces<S: Simd, V: Halves<S>> {
+    /// Each face's normal and offset.
+    numbers: [V::Table; 4],
+    factor: V::Half,
+    constant: V::Half,
+    rounding: V::Half,
+    one: V::Half,
+}
+
+/// Half of a register of segments, in doubles.
+struct Half<D> {
+    ends: [[D; 3]; 2],
+    /// What a value is off at most.
+    error: D,
+}
+
+impl<S: Simd, V: Halves<S>> Faces<S, V> {
+    fn new(simd: S, rows: &Rows<f64>) -> Self {
+        let mut numbers = [[0.0; 8]; 4];
+        for i in 0..6 {
+            let ([x, y, z], offset) = rows.face(i);
+            for (all, number) in numbers.iter_mut().zip([x, y, z, offset]) {
+                all[i] = number;
+            }
+        }
+        let all = |v: f64| V::Half::splat(simd, v);
+        Self {
+            numbers: numbers.map(|numbers| V::table(simd, numbers)),
+            // A size in singles may be 6 u less than it is.
+            factor: all(rows.factor * 1.000_001),
+            constant: all(rows.constant),
+            rounding: all(ROUNDINGS),
+            one: all(1.0),
+        }
+    }
 
     #[inline(always)]
-    fn cut(
-        faces: &Faces,
-        (): &mut (),
-        _: Range<usize>,
-        [p, q]: [[Self; 3]; 2],
-        found: &Crossings<S, Self>,
-    ) -> ([Self; 2], Self::Mask) {
-        let p = [p[0].widen(), p[1].widen(), p[2].widen()];
-        let q = [q[0].widen(), q[1].widen(), q[2].widen()];
-        let halves = [
-            Half::new(faces, [p[0].0, p[1].0, p[2].0], [q[0].0, q[1].0, q[2].0]),
-            Half::new(faces, [p[0].1, p[1].1, p[2].1], [q[0].1, q[1].1, q[2].1]),
-        ];
-        let (entry, entry_found) = crossing(faces, &halves, found.faces[0]);
-        let (exit, exit_found) = crossing(faces, &halves, found.faces[1]);
+    fn cut(&self, [p, q]: [[V; 3]; 2], found: &Crossings<S, V>) -> ([V; 2], V::Mask) {
+        let p = [p[0].halves(), p[1].halves(), p[2].halves()];
+        let q = [q[0].halves(), q[1].halves(), q[2].halves()];
+        let size = found.size.halves();
+        let halves = [self.half(0, p, q, size), self.half(1, p, q, size)];
+        let (entry, entry_found) = self.crossing(&halves, found.faces[0]);
+        let (exit, exit_found) = self.crossing(&halves, found.faces[1]);
         let all_found = (entry_found | !found.cut[0]) & (exit_found | !found.cut[1]);
         ([entry, exit], all_found)
     }
 
     #[inline(always)]
-    fn finish(_: S, _: &Frustum, (): &mut (), _: &mut Open<f32>) {}
-}
-
-/// Half of a register of segments, in doubles.
-struct Half<S: Simd> {
-    ends: [[f64x4<S>; 3]; 2],
-    /// What a value is off at most.
-    error: f64x4<S>,
-}
-
-impl<S: Simd> Half<S> {
-    #[inline(always)]
-    fn new(faces: &Faces, p: [f64x4<S>; 3], q: [f64x4<S>; 3]) -> Self {
-        let size = (Lanes::abs(p[0]) + Lanes::abs(p[1]) + Lanes::abs(p[2]))
-            + (Lanes::abs(q[0]) + Lanes::abs(q[1]) + Lanes::abs(q[2]));
-        Self {
-            ends: [p, q],
-            error: size.mul_add(faces.factor, size.all(faces.constant)),
+    fn half(
+        &self,
+        k: usize,
+        p: [[V::Half; 2]; 3],
+        q: [[V::Half; 2]; 3],
+        size: [V::Half; 2],
+    ) -> Half<V::Half> {
+        Half {
+            ends: [[p[0][k], p[1][k], p[2][k]], [q[0][k], q[1][k], q[2][k]]],
+            error: size[k].mul_add(self.factor, self.constant),
         }
+    }
+
+    /// The parameter of a face, by number, and whether it can be no other single.
+    #[inline(always)]
+    fn crossing(&self, halves: &[Half<V::Half>; 2], face: V::Bits) -> (V, V::Mask) {
+        let faces = V::look_up(&self.numbers, face);
+        let [low, high] = self.interval(&halves[0], faces[0]);
+        let [low_2, high_2] = self.interval(&halves[1], faces[1]);
+        let t = V::whole([low, low_2]);
+        (t, t.simd_eq(V::whole([high, high_2])))
     }
 
     /// A face's parameter is between these.
     #[inline(always)]
-    fn interval(&self, faces: &Faces, face: [usize; 4]) -> [f64x4<S>; 2] {
-        let simd = self.error.token();
-        let [x, y, z, offset] = [0, 1, 2, 3].map(
-            #[inline(always)]
-            |k| {
-                let all = &faces.numbers[k];
-                f64x4::simd_from(
-                    simd,
-                    [all[face[0]], all[face[1]], all[face[2]], all[face[3]]],
-                )
-            },
-        );
-        let [p, q] = &self.ends;
+    fn interval(&self, half: &Half<V::Half>, [x, y, z, offset]: [V::Half; 4]) -> [V::Half; 2] {
+        let [p, q] = &half.ends;
         let a = p[0].mul_add(x, p[1].mul_add(y, p[2].mul_add(z, offset)));
         let b = q[0].mul_add(x, q[1].mul_add(y, q[2].mul_add(z, offset)));
-        let scale = a.all(1.0) / (a - b);
+        let scale = self.one / (a - b);
         let t = a * scale;
-        let error = Lanes::abs(scale).mul_add(self.error, a.all(ROUNDINGS));
+        let error = scale.abs().mul_add(half.error, self.rounding);
         [t - error, t + error]
     }
-}
-
-/// The parameter of a face, by number, and whether it can be no other single.
-#[inline(always)]
-fn crossing<S: Simd>(
-    faces: &Faces,
-    halves: &[Half<S>; 2],
-    face: f32x8<S>,
-) -> (f32x8<S>, <f32x8<S> as SimdBase<S>>::Mask) {
-    let number: [i32; 8] = face.to_int::<i32x8<S>>().into();
-    let of = |j: usize| number[j] as usize & 7;
-    let [low, high] = halves[0].interval(faces, [of(0), of(1), of(2), of(3)]);
-    let [low_2, high_2] = halves[1].interval(faces, [of(4), of(5), of(6), of(7)]);
-    let t = f64x4::narrow(low, low_2);
-    (t, t.simd_eq(f64x4::narrow(high, high_2)))
 }
 
 /// Places, by face, where an entry's and an exit's parameter is missing.
@@ -170,11 +186,14 @@ impl Default for ByFace {
 }
 
 impl<S: Simd> Cut<S> for f64x4<S> {
+    type Faces = ();
     type PutOff = ByFace;
+
+    fn faces(_: S, _: &Rows<f64>) {}
 
     #[inline(always)]
     fn cut(
-        _: &Faces,
+        (): &(),
         put_off: &mut ByFace,
         present: Range<usize>,
         [p, _]: [[Self; 3]; 2],
@@ -183,7 +202,7 @@ impl<S: Simd> Cut<S> for f64x4<S> {
         let queues = [&mut put_off.entries, &mut put_off.exits];
         for ((queues, face), cut) in queues.into_iter().zip(found.faces).zip(found.cut) {
             let cut = (cut & found.certain).to_bitmask();
-            let face: [f64; 4] = face.into();
+            let face: [u64; 4] = face.into();
             for ((j, face), place) in face.into_iter().enumerate().zip(present.clone()) {
                 queues[face as usize % 6].push_if(place, cut >> j & 1 != 0);
             }

@@ -7,7 +7,8 @@
 //! that what is certain here is certain there, and constructed by the same rule.
 //!
 //! A crossing's parameter `a / (a - b)`, of values with different signs each off by E at
-//! most, is off by `E / |a - b|` and three roundings, which [`ROUNDINGS`] covers.
+//! most, is off by `E / |a - b|`, three roundings and what a face's number takes the place of: 17 u
+//! of a parameter up to 1, which [`ROUNDINGS`] covers.
 
 use crate::frustum::filter::Filter;
 use crate::math::Real;
@@ -15,7 +16,7 @@ use crate::volume::{Row, Rows};
 use fearless_simd::prelude::*;
 
 /// How many u a parameter's own operations are off, more than enough.
-const ROUNDINGS: f64 = 16.0;
+const ROUNDINGS: f64 = 32.0;
 
 /// A half space `n . p + d`, everywhere the same.
 #[derive(Clone, Copy)]
@@ -36,8 +37,7 @@ impl<V: Copy> Plane<V> {
 }
 
 /// What one frustum needs, in each lane.
-#[derive(Clone, Copy)]
-pub(super) struct Planes<V> {
+pub(super) struct Planes<S: Simd, V: SimdFloat<S>> {
     near: Plane<V>,
     far: V,
     sides: [Plane<V>; 4],
@@ -49,26 +49,22 @@ pub(super) struct Planes<V> {
     pub(super) zero: V,
     pub(super) one: V,
     /// The faces' numbers.
-    pub(super) numbers: [V; 6],
+    numbers: [V::Bits; 6],
+    /// A parameter's bits that a face's number takes the place of.
+    room: V::Bits,
 }
 
-/// The six faces' values at both ends of a register of segments.
-pub(super) struct Values<V> {
-    pub(super) start: [V; 6],
-    pub(super) end: [V; 6],
+/// How large a register of segments' coordinates are.
+pub(super) struct Size<V> {
+    /// The sum of the magnitudes of both ends' coordinates.
+    pub(super) sum: V,
     /// How far from zero a value's sign is certain.
     pub(super) threshold: V,
-    size: V,
 }
 
-impl<V: Copy> Planes<V> {
+impl<S: Simd, T: Real, V: SimdFloat<S, Element = T>> Planes<S, V> {
     #[inline(always)]
-    pub(super) fn new<S, T>(simd: S, rows: &Rows<T>, filter: &Filter) -> Self
-    where
-        S: Simd,
-        T: Real,
-        V: SimdFloat<S, Element = T>,
-    {
+    pub(super) fn new(simd: S, rows: &Rows<T>, filter: &Filter) -> Self {
         let all = |v: T| V::splat(simd, v);
         let plane = |row: &Row<T>| Plane {
             normal: [all(row.normal[0]), all(row.normal[1]), all(row.normal[2])],
@@ -77,6 +73,8 @@ impl<V: Copy> Planes<V> {
         let [a, b, c, d] = &rows.sides;
         let beyond = filter.certain_beyond();
         let up = |v: f64| T::from_f64(v).next_up();
+        // The least numbers are counted by their bits.
+        let bits = |n: usize| all((0..n).fold(T::ZERO, |v, _| v.next_up())).to_bits();
         // Each sum of two is rounded once, the factors have room for it.
         let more = T::ONE + T::from_f64(4.0 * T::UNIT_ROUNDOFF);
         Planes {
@@ -89,75 +87,58 @@ impl<V: Copy> Planes<V> {
             rounding: all(T::from_f64(ROUNDINGS * T::UNIT_ROUNDOFF)),
             zero: all(T::ZERO),
             one: all(T::ONE),
-            numbers: [
-                all(T::ZERO),
-                all(T::ONE),
-                all(T::from_f64(2.0)),
-                all(T::from_f64(3.0)),
-                all(T::from_f64(4.0)),
-                all(T::from_f64(5.0)),
-            ],
+            numbers: [0, 1, 2, 3, 4, 5].map(bits),
+            room: bits(7),
         }
     }
 
-    /// In the order of [`crate::Face::ALL`].
+    /// A parameter with a face's number in its last bits.
     #[inline(always)]
-    fn at<S, T>(&self, p: [V; 3]) -> [V; 6]
-    where
-        S: Simd,
-        T: Real,
-        V: SimdFloat<S, Element = T>,
-    {
-        let along = self.near.value::<S, T>(&p, self.zero);
-        let [a, b, c, d] = &self.sides;
-        [
-            along + self.near.offset,
-            self.far - along,
-            a.value::<S, T>(&p, a.offset),
-            b.value::<S, T>(&p, b.offset),
-            c.value::<S, T>(&p, c.offset),
-            d.value::<S, T>(&p, d.offset),
-        ]
+    pub(super) fn numbered(&self, t: V, face: usize) -> V {
+        V::from_bits((t.to_bits() & !self.room) | self.numbers[face])
+    }
+
+    /// The number of a parameter's face.
+    #[inline(always)]
+    pub(super) fn number(&self, t: V) -> V::Bits {
+        t.to_bits() & self.room
+    }
+
+    /// The values of near and far at a point.
+    #[inline(always)]
+    pub(super) fn near_far(&self, p: &[V; 3]) -> [V; 2] {
+        let along = self.near.value::<S, T>(p, self.zero);
+        [along + self.near.offset, self.far - along]
+    }
+
+    /// The value of left, right, bottom or top.
+    #[inline(always)]
+    pub(super) fn side(&self, side: usize, p: &[V; 3]) -> V {
+        let plane = &self.sides[side];
+        plane.value::<S, T>(p, plane.offset)
     }
 
     #[inline(always)]
-    pub(super) fn values<S, T>(&self, p: [V; 3], q: [V; 3]) -> Values<V>
-    where
-        S: Simd,
-        T: Real,
-        V: SimdFloat<S, Element = T>,
-    {
-        let size = (p[0].abs() + p[1].abs() + p[2].abs()) + (q[0].abs() + q[1].abs() + q[2].abs());
-        Values {
-            start: self.at(p),
-            end: self.at(q),
-            threshold: size.mul_add(self.factor, self.constant),
-            size,
+    pub(super) fn size(&self, [p, q]: &[[V; 3]; 2]) -> Size<V> {
+        let sum = (p[0].abs() + p[1].abs() + p[2].abs()) + (q[0].abs() + q[1].abs() + q[2].abs());
+        Size {
+            sum,
+            threshold: sum.mul_add(self.factor, self.constant),
         }
     }
 
-    /// What a crossing's parameter is off at most, of the greatest reciprocal of a
+    /// What a crossing's parameter is off at most, by the reciprocal of the smallest
     /// difference of values.
     #[inline(always)]
-    pub(super) fn error<S, T>(&self, values: &Values<V>, scales: V) -> V
-    where
-        S: Simd,
-        T: Real,
-        V: SimdFloat<S, Element = T>,
-    {
-        values.threshold.mul_add(scales, self.rounding)
+    pub(super) fn error(&self, size: &Size<V>, scale: V) -> V {
+        size.threshold.mul_add(scale, self.rounding)
     }
 
     /// Where the error bound holds: everywhere but at sizes near the largest number, and
     /// nowhere for NaN.
     #[inline(always)]
-    pub(super) fn covers<S, T>(&self, values: &Values<V>) -> V::Mask
-    where
-        S: Simd,
-        T: Real,
-        V: SimdFloat<S, Element = T>,
-    {
-        values.size.simd_lt(self.limit)
+    pub(super) fn covers(&self, size: &Size<V>) -> V::Mask {
+        size.sum.simd_lt(self.limit)
     }
 }
 

@@ -28,17 +28,20 @@ impl Queue {
         self.len = 0;
     }
 
-    /// Appends `base` plus the place of each bit that is set, of up to eight.
+    /// Appends `base` plus the place of each bit that is set, of N.
     #[inline(always)]
-    pub(super) fn append(&mut self, base: usize, bits: u64) {
-        let places = &PLACES[(bits & 0xff) as usize];
-        let rest = self.items.get_mut(self.len..);
-        if let Some(slots) = rest.and_then(|rest| rest.first_chunk_mut::<8>()) {
-            for (slot, place) in slots.iter_mut().zip(places) {
-                *slot = base as u16 + u16::from(*place);
+    pub(super) fn append<const N: usize>(&mut self, base: usize, bits: u64) {
+        for k in (0..N).step_by(8) {
+            let byte = bits >> k & 0xff;
+            let places = &PLACES[byte as usize];
+            let rest = self.items.get_mut(self.len..);
+            if let Some(slots) = rest.and_then(|rest| rest.first_chunk_mut::<8>()) {
+                for (slot, place) in slots.iter_mut().zip(places) {
+                    *slot = (base + k) as u16 + u16::from(*place);
+                }
             }
+            self.len += byte.count_ones() as usize;
         }
-        self.len += (bits & 0xff).count_ones() as usize;
     }
 
     /// Appends one, or does not.
@@ -62,13 +65,6 @@ impl Queue {
     #[inline(always)]
     pub(super) fn at(&self, place: usize) -> usize {
         usize::from(self.items[place % ROOM]) % BLOCK
-    }
-
-    /// Forgets those from `end` on, of numbers in order.
-    pub(super) fn keep_below(&mut self, end: usize) {
-        while self.len > 0 && self.at(self.len - 1) >= end {
-            self.len -= 1;
-        }
     }
 
     /// In groups of four; the last one repeats its last.

@@ -2,9 +2,10 @@
 
 use super::Segments;
 use super::crossings::Crossings;
+use super::marks::{Found, Marks, ends};
 use super::open::Open;
-use super::parameters::{Cut, Faces};
-use super::planes::{Planes, Values};
+use super::parameters::Cut;
+use super::planes::Planes;
 use super::queues::{BLOCK, ROOM};
 use crate::clip::{Accuracy, Class, SegmentClip, StageCounts, slice};
 use crate::frustum::Frustum;
@@ -12,7 +13,7 @@ use crate::math::{NonFiniteAt, Real, Segment};
 use crate::simd::at_width;
 use crate::volume::Rows;
 use fearless_simd::prelude::*;
-use fearless_simd::{Level, f32x8, f64x4};
+use fearless_simd::{Level, f32x8, f32x16, f64x4};
 
 /// Where answers go, a place for each segment.
 pub(in crate::batch) struct Out<'a, T> {
@@ -62,13 +63,6 @@ pub(in crate::batch) struct Asked<'a, T> {
     pub(in crate::batch) doubles: &'a Rows<f64>,
 }
 
-/// Answers about a block.
-struct Answers<T> {
-    classes: [Class; BLOCK],
-    t0: [T; BLOCK],
-    t1: [T; BLOCK],
-}
-
 /// Asks about all segments at a vector width.
 #[inline(always)]
 fn run<S, T, V, const N: usize>(
@@ -82,14 +76,9 @@ where
     T: Real,
     V: Cut<S> + SimdFloat<S, Element = T, Array = [T; N]>,
 {
-    let planes = Planes::<V>::new(simd, asked.rows, asked.frustum.filter());
-    let faces = Faces::new(asked.doubles);
-    let (mut put_off, mut open) = (V::PutOff::default(), Open::new());
-    let mut answers = Answers {
-        classes: [Class::Outside; BLOCK],
-        t0: [T::ZERO; BLOCK],
-        t1: [T::ZERO; BLOCK],
-    };
+    let planes = Planes::<S, V>::new(simd, asked.rows, asked.frustum.filter());
+    let faces = V::faces(simd, asked.doubles);
+    let (mut put_off, mut open, mut marks) = (V::PutOff::default(), Open::new(), Marks::new());
     let mut gathered = [[T::ZERO; BLOCK]; 6];
     let arrays = segments.arrays();
     for start in (0..out.classes.len()).step_by(BLOCK) {
@@ -102,9 +91,12 @@ where
             }
         };
         open.clear();
-        answers.triage::<S, V, N>(simd, &planes, block, &mut open);
-        open.numbers.keep_below(count);
+        marks.triage::<S, V, N>(simd, &planes, block, &mut open);
+        if count < BLOCK {
+            marks.keep_below(count, &mut open);
+        }
         if !packs(simd) {
+            open.list::<S, V, N>(simd, &marks);
             open.gather(block);
         }
         cross::<S, T, V, N>(
@@ -115,16 +107,14 @@ where
             &mut put_off,
             &mut open,
         );
-        answers.close(&open);
-        for &place in open.unsure.items() {
-            let place = usize::from(place);
-            out.unsure.segments.push(open.segment(place));
-            out.unsure.numbers.push(start + open.numbers.at(place));
+        out.close::<S, V, N>(simd, start, &marks, &open);
+        if open.unsure.len() > 0 {
+            open.list::<S, V, N>(simd, &marks);
+            for (number, segment) in open.unsure() {
+                out.unsure.segments.push(segment);
+                out.unsure.numbers.push(start + number);
+            }
         }
-        let to = start..start + count;
-        out.classes[to.clone()].copy_from_slice(&answers.classes[..count]);
-        out.t0[to.clone()].copy_from_slice(&answers.t0[..count]);
-        out.t1[to].copy_from_slice(&answers.t1[..count]);
         if out.unsure.numbers.len() >= BLOCK {
             out.clip_unsure(simd.level(), asked.frustum)?;
         }
@@ -133,6 +123,38 @@ where
 }
 
 impl<T: Real> Out<'_, T> {
+    /// Writes down what was found of a block.
+    #[inline(always)]
+    fn close<S, V, const N: usize>(
+        &mut self,
+        simd: S,
+        start: usize,
+        marks: &Marks<T>,
+        open: &Open<T>,
+    ) where
+        S: Simd,
+        V: SimdFloat<S, Element = T>,
+    {
+        let classes = &mut self.classes[start..];
+        let (t0, t1) = (&mut self.t0[start..], &mut self.t1[start..]);
+        let whole = classes.first_chunk_mut().zip(t0.first_chunk_mut());
+        if let Some(((classes, t0), t1)) = whole.zip(t1.first_chunk_mut()) {
+            marks.close::<S, V, N>(simd, open, Found { classes, t0, t1 });
+            return;
+        }
+        let mut all = ([Class::Outside; BLOCK], [T::ZERO; BLOCK], [T::ZERO; BLOCK]);
+        let (all_classes, all_t0, all_t1) = (&mut all.0, &mut all.1, &mut all.2);
+        let found = Found {
+            classes: all_classes,
+            t0: all_t0,
+            t1: all_t1,
+        };
+        marks.close::<S, V, N>(simd, open, found);
+        classes.copy_from_slice(&all.0[..classes.len()]);
+        t0.copy_from_slice(&all.1[..t0.len()]);
+        t1.copy_from_slice(&all.2[..t1.len()]);
+    }
+
     /// What waits, as a slice. Segments that are not finite wait in the batch's order.
     fn clip_unsure(&mut self, level: Level, frustum: &Frustum) -> Result<(), NonFiniteAt> {
         let Unsure {
@@ -163,7 +185,7 @@ impl<T: Real> Out<'_, T> {
 
 /// Whether registers can be packed fast.
 #[inline(always)]
-fn packs<S: Simd>(simd: S) -> bool {
+pub(super) fn packs<S: Simd>(simd: S) -> bool {
     #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
     return simd.level().as_avx2().is_some();
     #[cfg(not(any(target_arch = "x86", target_arch = "x86_64")))]
@@ -199,111 +221,12 @@ fn gather<T: Real>(
     }
 }
 
-/// The classes for four bits each of outside and inside.
-const CLASSES: [[Class; 4]; 256] = {
-    let mut all = [[Class::Cross; 4]; 256];
-    let mut i = 0;
-    while i < 1024 {
-        let (bits, lane) = (i / 4, i % 4);
-        if bits >> lane & 1 != 0 {
-            all[bits][lane] = Class::Outside;
-        } else if bits >> (4 + lane) & 1 != 0 {
-            all[bits][lane] = Class::Inside;
-        }
-        i += 1;
-    }
-    all
-};
-
-/// The points of a register of segments, from `at` on.
-#[inline(always)]
-fn ends<S, T, V, const N: usize, const M: usize>(
-    simd: S,
-    block: [&[T; M]; 6],
-    at: usize,
-) -> [[V; 3]; 2]
-where
-    S: Simd,
-    V: SimdFloat<S, Element = T>,
-{
-    [
-        [
-            V::from_slice(simd, &block[0][at..at + N]),
-            V::from_slice(simd, &block[1][at..at + N]),
-            V::from_slice(simd, &block[2][at..at + N]),
-        ],
-        [
-            V::from_slice(simd, &block[3][at..at + N]),
-            V::from_slice(simd, &block[4][at..at + N]),
-            V::from_slice(simd, &block[5][at..at + N]),
-        ],
-    ]
-}
-
-impl<T: Real> Answers<T> {
-    /// What is outside of a face, or inside of all, by their values' signs; the numbers of
-    /// the rest.
-    #[inline(always)]
-    fn triage<S, V, const N: usize>(
-        &mut self,
-        simd: S,
-        planes: &Planes<V>,
-        block: [&[T; BLOCK]; 6],
-        open: &mut Open<T>,
-    ) where
-        S: Simd,
-        V: SimdFloat<S, Element = T, Array = [T; N]>,
-    {
-        for at in (0..BLOCK).step_by(N) {
-            let [p, q] = ends::<S, T, V, N, BLOCK>(simd, block, at);
-            let values = planes.values::<S, T>(p, q);
-            let Values { start, end, .. } = &values;
-            let mut greatest = start[0].max(end[0]);
-            let mut least = start[0].min(end[0]);
-            for i in 1..6 {
-                greatest = greatest.min(start[i].max(end[i]));
-                least = least.min(start[i].min(end[i]));
-            }
-            let covered = planes.covers::<S, T>(&values);
-            let outside = covered & greatest.simd_lt(-values.threshold);
-            let inside = covered & least.simd_gt(values.threshold);
-            outside
-                .select(planes.one, planes.zero)
-                .store_slice(&mut self.t0[at..at + N]);
-            outside
-                .select(planes.zero, planes.one)
-                .store_slice(&mut self.t1[at..at + N]);
-            let left = !(outside | inside);
-            if packs(simd) {
-                open.pack::<S, V, N>([p, q], left);
-            }
-            open.numbers.append(at, left.to_bitmask());
-            let (outside, inside) = (outside.to_bitmask(), inside.to_bitmask());
-            for k in (0..N).step_by(4) {
-                let bits = outside >> k & 15 | (inside >> k & 15) << 4;
-                self.classes[at + k..at + k + 4].copy_from_slice(&CLASSES[bits as usize & 255]);
-            }
-        }
-    }
-
-    /// Writes down what was found of what was open.
-    #[inline(always)]
-    fn close(&mut self, open: &Open<T>) {
-        for (place, &number) in open.numbers.items().iter().enumerate() {
-            let i = usize::from(number) % BLOCK;
-            self.classes[i] = open.classes[place];
-            self.t0[i] = open.t0[place];
-            self.t1[i] = open.t1[place];
-        }
-    }
-}
-
 /// Latest entries and earliest exits of what is open.
 #[inline(always)]
 fn cross<S, T, V, const N: usize>(
     simd: S,
-    planes: &Planes<V>,
-    faces: &Faces,
+    planes: &Planes<S, V>,
+    faces: &V::Faces,
     frustum: &Frustum,
     put_off: &mut V::PutOff,
     open: &mut Open<T>,
@@ -312,11 +235,10 @@ fn cross<S, T, V, const N: usize>(
     T: Real,
     V: Cut<S> + SimdFloat<S, Element = T, Array = [T; N]>,
 {
-    let count = open.numbers.len();
+    let count = open.len.min(BLOCK);
     for at in (0..count).step_by(N) {
-        let ends = ends::<S, T, V, N, ROOM>(simd, open.coordinates.each_ref(), at);
-        let values = planes.values::<S, T>(ends[0], ends[1]);
-        let found = Crossings::new(planes, &values);
+        let ends = ends::<S, V, N, ROOM>(simd, open.coordinates.each_ref(), at);
+        let found = Crossings::new(planes, &ends);
         let ([entry, exit], sure) = V::cut(faces, put_off, at..count, ends, &found);
         let entry = found.cut[0].select(entry, planes.zero);
         let exit = found.cut[1].select(exit, planes.one);
@@ -324,26 +246,25 @@ fn cross<S, T, V, const N: usize>(
         let t1 = found.outside.select(planes.zero, exit);
         t0.store_slice(&mut open.t0[at..at + N]);
         t1.store_slice(&mut open.t1[at..at + N]);
-        let outside = found.outside.to_bitmask();
-        for k in (0..N).step_by(4) {
-            let bits = outside >> k & 15;
-            open.classes[at + k..at + k + 4].copy_from_slice(&CLASSES[bits as usize]);
-        }
         let present = u64::MAX >> (64 - N.min(count - at));
-        let sure = outside | (found.certain & sure).to_bitmask();
-        open.unsure.append(at, present & !sure);
+        let sure = (found.outside | found.certain & sure).to_bitmask();
+        open.unsure.append::<N>(at, present & !sure);
     }
     V::finish(simd, frustum, put_off, open);
 }
 
-/// At the machine's vector width, eight singles at a time.
+/// At the machine's vector width, eight or sixteen singles at a time.
 pub(in crate::batch) fn singles(
     level: Level,
     asked: Asked<'_, f32>,
     segments: &Segments<'_, f32>,
     out: Out<'_, f32>,
 ) -> Result<(), NonFiniteAt> {
-    at_width!(level, simd => run::<_, f32, f32x8<_>, 8>(simd, asked, segments, out))
+    at_width!(
+        level,
+        simd => run::<_, f32, f32x8<_>, 8>(simd, asked, segments, out),
+        wide => run::<_, f32, f32x16<_>, 16>(wide, asked, segments, out)
+    )
 }
 
 /// At the machine's vector width, four doubles at a time.

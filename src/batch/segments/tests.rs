@@ -2,20 +2,14 @@
 
 use super::*;
 use crate::clip::Class;
+use crate::frustum::Direction;
 use crate::frustum::Frustum;
-use crate::math::NonFiniteAt;
+use crate::math::{NonFiniteAt, Rect};
 use crate::samples::{BLOCK as CASES, Family};
+use crate::simd::levels;
 use crate::volume::Culler;
 use crate::{EndRect, Pose, Shape};
 use fearless_simd::Level;
-
-/// The widest registers of this machine, and those that every one has.
-fn levels() -> Vec<Level> {
-    if cfg!(miri) {
-        return vec![Level::new()];
-    }
-    vec![Level::new(), Level::baseline()]
-}
 
 fn arrays<T: Real>(segments: &[Segment<T>]) -> [Vec<T>; 6] {
     let all = |of: fn(&Segment<T>) -> T| segments.iter().map(of).collect();
@@ -122,8 +116,10 @@ fn hardly_any_segment_of_a_scene_is_unsure() {
         Segment::new(p.map(|v| v as f32), q.map(|v| v as f32))
     };
     let segments: Vec<Segment<f32>> = (0..20_000).map(|_| segment()).collect();
-    let unsure = compare(Level::new(), &culler, &segments);
-    assert!((1..40).contains(&unsure), "{unsure}");
+    for level in levels() {
+        let unsure = compare(level, &culler, &segments);
+        assert!((1..40).contains(&unsure), "{unsure}");
+    }
     let class = |class| {
         let all = segments.iter().map(|s| expected(culler.frustum(), s).0);
         all.filter(|c| *c == class).count()
@@ -171,9 +167,11 @@ fn extreme_sizes_are_as_alone() {
         let scale = f64::from(exponent).exp2();
         let mut point = || [next() * scale, next() * scale, next() * scale].map(|v| v as f32);
         let segments: Vec<_> = (0..600).map(|_| Segment::new(point(), point())).collect();
-        compare(Level::new(), &culler, &segments);
         let wide: Vec<Segment<f64>> = segments.iter().map(|s| s.to_f64()).collect();
-        compare(Level::new(), &culler, &wide);
+        for level in levels() {
+            compare(level, &culler, &segments);
+            compare(level, &culler, &wide);
+        }
     }
 }
 
@@ -186,8 +184,10 @@ fn a_parameter_between_two_singles_is_found_precisely() {
     let size = 16_777_216.0_f32;
     // (2^24 + 3) / 2^25
     let segment = Segment::new([-size - 4.0, 0.0, 1e6], [size - 4.0, 0.0, 1e6]);
-    let unsure = compare(Level::new(), &Culler::new(&frustum), &[segment; 3]);
-    assert_eq!(unsure, 3);
+    for level in levels() {
+        let unsure = compare(level, &Culler::new(&frustum), &[segment; 3]);
+        assert_eq!(unsure, 3);
+    }
     let (_, t0, _) = expected(&frustum, &segment);
     assert_eq!(t0, 0.5 + 2.0 * f32::EPSILON / 2.0);
 }
@@ -215,4 +215,39 @@ fn every_magnitude_gives_what_each_gives_alone() {
     }
     check::<f32>(if cfg!(miri) { 120..126 } else { -126..126 });
     check::<f64>(if cfg!(miri) { 900..903 } else { -1022..1022 });
+}
+
+/// What runs along a face meets it nowhere, and a face that is not there is not met.
+#[test]
+fn segments_along_faces_are_settled() {
+    let rect = Rect {
+        left: -1.0,
+        right: 1.0,
+        bottom: -1.0,
+        top: 1.0,
+    };
+    let (near, far) = (EndRect { z: 1.0, rect }, EndRect { z: 3.0, rect });
+    let infinite = Shape::Infinite {
+        near,
+        direction: Direction::PlusZ,
+        slopes: rect,
+    };
+    for shape in [Shape::Finite { near, far }, infinite] {
+        let frustum = Frustum::new(Pose::IDENTITY, shape).unwrap();
+        let culler = Culler::new(&frustum);
+        let mut next = numbers();
+        let mut segment = |k: usize| {
+            let start = [2.0 * next(), 2.0 * next(), 2.0 + 2.0 * next()];
+            let mut end = start;
+            end[k % 3] += 3.0 * next();
+            Segment::new(start.map(|v| v as f32), end.map(|v| v as f32))
+        };
+        let segments: Vec<Segment<f32>> = (0..6_000).map(&mut segment).collect();
+        let wide: Vec<Segment<f64>> = segments.iter().map(|s| s.to_f64()).collect();
+        for level in levels() {
+            let unsure = compare(level, &culler, &segments);
+            assert!(unsure < 12, "{unsure}");
+            assert_eq!(compare(level, &culler, &wide), 0);
+        }
+    }
 }

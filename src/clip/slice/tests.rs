@@ -3,14 +3,7 @@
 use super::*;
 use crate::clip::{SegmentClipper, VwProjection};
 use crate::samples::{BLOCK, Family};
-
-/// The widest registers of this machine, and those that every one has.
-fn levels() -> Vec<Level> {
-    if cfg!(miri) {
-        return vec![Level::new()];
-    }
-    vec![Level::new(), Level::baseline()]
-}
+use crate::simd::levels;
 
 /// The families compared: under Miri, which takes a thousand times as long, two
 /// that between them reach every queue.
