@@ -4,6 +4,9 @@
 //! part of the caller's buffers: the same bits with any number of threads. Of errors the
 //! first in the batch's order is told. Lists are made a piece each and then joined, which
 //! allocates.
+//!
+//! The caller's thread begins at once, the others take pieces as soon as they wake: that takes as
+//! long as some ten thousand answers, and a batch is often not much more.
 
 use super::masks::{Classes, MaskWords, Numbers};
 use super::segments::{Out, Unsure};
@@ -12,8 +15,8 @@ use super::{Ask, Boxes, ContainmentMasks, RelativeBoxes, SegmentIntervals, Segme
 use crate::math::{NonFiniteAt, Real};
 use crate::volume::{Containment, Culler, VolumeCounts, VolumeErrorAt};
 use fearless_simd::Level;
-use rayon::prelude::*;
 use std::ops::Range;
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// Volumes or segments in a piece: enough that handing it over costs nothing beside, few
 /// enough that it stays in a core's own cache.
@@ -131,10 +134,10 @@ impl Culler {
         let segments = segments.into();
         let len = segments.len();
         let out = intervals.prepare(len);
-        let pieces = out.classes.par_chunks_mut(PIECE);
-        let pieces = pieces.zip(out.t0.par_chunks_mut(PIECE));
-        let pieces = pieces.zip(out.t1.par_chunks_mut(PIECE));
-        let ask = |(piece, ((classes, t0), t1))| {
+        let pieces = out.classes.chunks_mut(PIECE);
+        let pieces = pieces.zip(out.t0.chunks_mut(PIECE));
+        let pieces = pieces.zip(out.t1.chunks_mut(PIECE));
+        let done = by_all(pieces, |piece, ((classes, t0), t1)| {
             let mut unsure = Unsure::default();
             let out = Out {
                 classes,
@@ -150,29 +153,30 @@ impl Culler {
                 ..e
             })?;
             Ok(unsure.count)
-        };
-        let done: Vec<Result<usize, NonFiniteAt>> = pieces.enumerate().map(ask).collect();
-        // The sum ends at the first error in order.
-        let done: Result<usize, NonFiniteAt> = done.into_iter().sum();
+        });
         match done {
-            Ok(unsure) => out.unsure.count = unsure,
-            Err(_) => intervals.clear(),
+            Ok(unsure) => {
+                out.unsure.count = unsure.into_iter().sum();
+                Ok(())
+            }
+            Err(error) => {
+                intervals.clear();
+                Err(error)
+            }
         }
-        done.map(|_| ())
     }
 
     fn par_masks(&self, lot: &impl Ask, masks: &mut ContainmentMasks) -> Result<(), VolumeErrorAt> {
         let words = masks.prepare(lot.count());
-        let outside = words.outside.par_chunks_mut(PIECE / WORD);
-        let pieces = outside.zip(words.inside.par_chunks_mut(PIECE / WORD));
-        let ask = |(piece, (outside, inside))| {
+        let outside = words.outside.chunks_mut(PIECE / WORD);
+        let pieces = outside.zip(words.inside.chunks_mut(PIECE / WORD));
+        let done = by_all(pieces, |piece, (outside, inside)| {
             self.ask_piece(lot, piece, &mut MaskWords { outside, inside })
-        };
-        let done = first_error(pieces.enumerate().map(ask));
+        });
         if done.is_err() {
             masks.clear();
         }
-        done
+        done.map(|_| ())
     }
 
     fn par_classes(
@@ -181,25 +185,22 @@ impl Culler {
         classes: &mut Vec<Containment>,
     ) -> Result<(), VolumeErrorAt> {
         classes.resize(lot.count(), Containment::Outside);
-        let pieces = classes.par_chunks_mut(PIECE).enumerate();
-        let ask = |(piece, classes)| self.ask_piece(lot, piece, &mut Classes(classes));
-        let done = first_error(pieces.map(ask));
+        let done = by_all(classes.chunks_mut(PIECE), |piece, classes| {
+            self.ask_piece(lot, piece, &mut Classes(classes))
+        });
         if done.is_err() {
             classes.clear();
         }
-        done
+        done.map(|_| ())
     }
 
     fn par_numbers(&self, lot: &impl Ask, numbers: &mut Vec<u32>) -> Result<(), VolumeErrorAt> {
         numbers.clear();
-        let pieces = (0..lot.count().div_ceil(PIECE)).into_par_iter();
-        let ask = |piece| {
+        let lists = by_all(0..lot.count().div_ceil(PIECE), |_, piece| {
             let mut list = Vec::new();
             let mut sink = Numbers::new(&mut list, (piece * PIECE) as u32);
             self.ask_piece(lot, piece, &mut sink).map(|()| list)
-        };
-        let lists: Vec<Result<Vec<u32>, VolumeErrorAt>> = pieces.map(ask).collect();
-        let lists: Vec<Vec<u32>> = lists.into_iter().collect::<Result<_, _>>()?;
+        })?;
         numbers.reserve(lists.iter().map(Vec::len).sum());
         lists
             .iter()
@@ -223,10 +224,40 @@ impl Culler {
     }
 }
 
-/// The first in order, not in time.
-fn first_error<E: Send>(done: impl IndexedParallelIterator<Item = Result<(), E>>) -> Result<(), E> {
-    let done: Vec<Result<(), E>> = done.collect();
-    done.into_iter().collect()
+/// What is done with each piece, in their order, by this thread and rayon's; or the first error
+/// in that order.
+fn by_all<Piece: Send, Done: Send, E: Send>(
+    pieces: impl ExactSizeIterator<Item = Piece> + Send,
+    work: impl Fn(usize, Piece) -> Result<Done, E> + Sync,
+) -> Result<Vec<Done>, E> {
+    let helpers = rayon::current_num_threads().min(pieces.len());
+    let left = Mutex::new(Some(pieces.enumerate()));
+    let all = Mutex::new(Vec::new());
+    // Pieces are taken in order: none before one that failed is left.
+    let take = || locked(&left).as_mut()?.next();
+    let work_off = || {
+        while let Some((i, piece)) = take() {
+            let done = work(i, piece);
+            if done.is_err() {
+                *locked(&left) = None;
+            }
+            locked(&all).push((i, done));
+        }
+    };
+    rayon::in_place_scope(|scope| {
+        for _ in 1..helpers {
+            scope.spawn(|_| work_off());
+        }
+        work_off();
+    });
+    let mut all = all.into_inner().unwrap_or_else(PoisonError::into_inner);
+    all.sort_unstable_by_key(|&(i, _)| i);
+    all.into_iter().map(|(_, done)| done).collect()
+}
+
+/// A panic elsewhere is told there.
+fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 #[cfg(test)]
@@ -314,6 +345,26 @@ mod tests {
         };
         culler.par_clip_intervals(arrays, &mut many).unwrap();
         assert!(one == many);
+    }
+
+    #[test]
+    fn any_number_of_threads_takes_each_piece_once() {
+        for threads in [1, 2, 7] {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
+            let pool = pool.build().unwrap();
+            for pieces in [0, 1, 5, 400] {
+                let work = |i, piece| match i {
+                    300 | 350 => Err(i),
+                    _ => Ok((i, piece)),
+                };
+                let done = pool.install(|| by_all(1000..1000 + pieces, work));
+                let expected = match pieces {
+                    400 => Err(300),
+                    _ => Ok((0..pieces).map(|i| (i, 1000 + i)).collect()),
+                };
+                assert_eq!(done, expected);
+            }
+        }
     }
 
     #[test]
