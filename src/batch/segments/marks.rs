@@ -132,14 +132,12 @@ impl<T: Real> Marks<T> {
                 let t0 = V::from_slice(simd, &self.t0[at..at + N]);
                 let t1 = V::from_slice(simd, &self.t1[at..at + N]);
                 let from = place..place + N;
+                let to_t0 = &mut to.t0[at..at + N];
                 let found = V::from_slice(simd, &open.t0[from.clone()]);
-                found
-                    .expand_merge(lanes, t0)
-                    .store_slice(&mut to.t0[at..at + N]);
+                V::expand_merge(found, lanes, t0).store_slice(to_t0);
+                let to_t1 = &mut to.t1[at..at + N];
                 let found = V::from_slice(simd, &open.t1[from]);
-                found
-                    .expand_merge(lanes, t1)
-                    .store_slice(&mut to.t1[at..at + N]);
+                V::expand_merge(found, lanes, t1).store_slice(to_t1);
                 place = (place + lanes.to_bitmask().count_ones() as usize).min(BLOCK);
             }
         } else {
