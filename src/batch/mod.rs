@@ -212,7 +212,7 @@ impl Culler {
     /// How each of many segments lies to the frustum, and the parameters between which it is
     /// in it: to the bit those of [`Frustum::clip_segment`](crate::Frustum::clip_segment).
     ///
-    /// Singles are eight a register, and take a third or less of the time of
+    /// Singles are eight or sixteen a register, and take a third or less of the time of
     /// [`Frustum::clip_segments`](crate::Frustum::clip_segments), which gives points and
     /// faces, too.
     ///

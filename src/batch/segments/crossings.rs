@@ -10,8 +10,8 @@
 //!
 //! # One difference for near and far
 //! Their values rise and fall together: one of them is entered, the other left. The difference of
-//! near's values stands for both, and adds 2 u (S + |d|) to what far's parameter is off: 7.1 u S +
-//! 6.1 u |d| of the 8 of each that a threshold has (`planes.rs`).
+//! near's values stands for both, so that far's parameter is off by 7.2 u S + 4.2 u |d| over it
+//! (`proofs/half_space.gappa`), of the 8 of each that a threshold has (`planes.rs`).
 
 use super::planes::Planes;
 use crate::math::Real;
