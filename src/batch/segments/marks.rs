@@ -97,14 +97,16 @@ impl<T: Real> Marks<T> {
         }
     }
 
-    /// Takes what is from `end` on, and open, from that.
-    pub(super) fn keep_below(&mut self, end: usize, open: &mut Open<T>) {
+    /// Nothing from `end` on is open; how many were.
+    pub(super) fn keep_below(&mut self, end: usize) -> usize {
+        let mut dropped = 0;
         for (t0, t1) in self.t0[end..].iter_mut().zip(&self.t1[end..]) {
             if *t0 == *t1 {
                 *t0 = T::ONE;
-                open.len -= 1;
+                dropped += 1;
             }
         }
+        dropped
     }
 
     /// Which of a register of segments are open.

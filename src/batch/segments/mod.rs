@@ -129,11 +129,6 @@ impl<'a, T: Real> Segments<'a, T> {
         }
     }
 
-    fn numbers(&self, index: usize) -> [T; 6] {
-        let Segment { start, end } = self.get(index).unwrap_or_default();
-        [start.x, start.y, start.z, end.x, end.y, end.z]
-    }
-
     /// Where the numbers lie side by side.
     fn arrays(&self) -> Option<[&'a [T]; 6]> {
         match *self {

@@ -92,10 +92,10 @@ where
         };
         open.clear();
         marks.triage::<S, V, N>(simd, &planes, block, &mut open);
-        if count < BLOCK {
-            marks.keep_below(count, &mut open);
-        }
-        if !packs(simd) {
+        let dropped = marks.keep_below(count);
+        if packs(simd) {
+            open.len -= dropped;
+        } else {
             open.list::<S, V, N>(simd, &marks);
             open.gather(block);
         }
@@ -207,17 +207,29 @@ fn blocks<T>(arrays: [&[T]; 6], start: usize) -> Option<[&[T; BLOCK]; 6]> {
 }
 
 /// A block's numbers side by side; beyond the last segment it repeats that.
+#[inline(always)]
 fn gather<T: Real>(
     segments: &Segments<'_, T>,
     start: usize,
     count: usize,
     to: &mut [[T; BLOCK]; 6],
 ) {
-    for i in 0..BLOCK {
-        let numbers = segments.numbers(start + i.min(count - 1));
-        for (array, number) in to.iter_mut().zip(numbers) {
-            array[i] = number;
+    let [a, b, c, d, e, f] = to;
+    let mut put = |i: usize, Segment { start, end }: Segment<T>| {
+        (a[i], b[i], c[i]) = (start.x, start.y, start.z);
+        (d[i], e[i], f[i]) = (end.x, end.y, end.z);
+    };
+    if let Segments::Slice(all) = segments
+        && let Some(block) = all[start..].first_chunk::<BLOCK>()
+    {
+        for (i, &segment) in block.iter().enumerate() {
+            put(i, segment);
         }
+        return;
+    }
+    for i in 0..BLOCK {
+        let segment = segments.get(start + i.min(count - 1));
+        put(i, segment.unwrap_or_default());
     }
 }
 
