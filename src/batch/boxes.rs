@@ -31,6 +31,7 @@
 //! the frame than it does, which would be more boxes to look at again.
 
 use super::box_set::{BoxBlocks, BoxSet};
+use super::plane::Plane;
 use super::words::{BLOCK, Block, Lot, WORD, Word, Words, load};
 use crate::math::{Real, Vec3};
 use crate::volume::{Aabb, Row, Rows, Volume};
@@ -268,47 +269,42 @@ where
 /// Which numbers of a box are a corner's coordinates.
 type Corner = [usize; 3];
 
-/// A face's numbers in each lane.
-#[derive(Clone, Copy)]
-struct Plane<V> {
-    normal: [V; 3],
-    offset: V,
+/// The corners of a group.
+#[inline(always)]
+fn corners<S, V, T, const N: usize>(
+    simd: S,
+    block: &Block<T, 6>,
+    corner: Corner,
+    group: usize,
+) -> [V; 3]
+where
+    S: Simd,
+    V: SimdFloat<S, Element = T>,
+{
+    [
+        load::<S, V, T, N, 6>(simd, block, corner[0], group),
+        load::<S, V, T, N, 6>(simd, block, corner[1], group),
+        load::<S, V, T, N, 6>(simd, block, corner[2], group),
+    ]
 }
 
-impl<V: Copy> Plane<V> {
-    #[inline(always)]
-    fn new<S: Simd, T: Real>(simd: S, row: &Row<T>) -> Self
-    where
-        V: SimdFloat<S, Element = T>,
-    {
-        let all = |v: T| V::splat(simd, v);
-        let [x, y, z] = row.normal;
-        Self {
-            normal: [all(x), all(y), all(z)],
-            offset: all(row.offset),
-        }
-    }
-
-    /// `n . p + d` for the corners of a group.
-    #[inline(always)]
-    fn value<S, T, const N: usize>(
-        &self,
-        simd: S,
-        block: &Block<T, 6>,
-        p: Corner,
-        group: usize,
-        d: V,
-    ) -> V
-    where
-        S: Simd,
-        V: SimdFloat<S, Element = T>,
-    {
-        let [x, y, z] = self.normal;
-        let a = load::<S, V, T, N, 6>(simd, block, p[0], group);
-        let b = load::<S, V, T, N, 6>(simd, block, p[1], group);
-        let c = load::<S, V, T, N, 6>(simd, block, p[2], group);
-        a.mul_add(x, b.mul_add(y, c.mul_add(z, d)))
-    }
+/// A face's values at the corners of a group.
+#[inline(always)]
+fn values<S, V, T, const N: usize>(
+    simd: S,
+    plane: &Plane<V>,
+    block: &Block<T, 6>,
+    corner: Corner,
+    group: usize,
+) -> V
+where
+    S: Simd,
+    V: SimdFloat<S, Element = T>,
+{
+    plane.along::<S>(
+        &corners::<S, V, T, N>(simd, block, corner, group),
+        plane.offset,
+    )
 }
 
 /// Of each box the least over near, far and left of their greatest, and of their least
@@ -334,14 +330,14 @@ fn first<S, V, T, const N: usize, const INSIDE: bool>(
     let [left_farthest, left_opposite] = rows.sides[0].corners;
     for group in 0..BLOCK / N {
         let to = group * N..group * N + N;
-        let along = near.value::<S, T, N>(simd, block, farthest, group, zero);
-        let against = near.value::<S, T, N>(simd, block, opposite, group, zero);
-        let side = left.value::<S, T, N>(simd, block, left_farthest, group, left.offset);
+        let along = near.along::<S>(&corners::<S, V, T, N>(simd, block, farthest, group), zero);
+        let against = near.along::<S>(&corners::<S, V, T, N>(simd, block, opposite, group), zero);
+        let side = values::<S, V, T, N>(simd, &left, block, left_farthest, group);
         // The far face's value is the sum of both offsets less the near one's.
         let greatest = (along + near.offset).min(far - against);
         greatest.min(side).store_slice(&mut to_greatest[to.clone()]);
         if INSIDE {
-            let side = left.value::<S, T, N>(simd, block, left_opposite, group, left.offset);
+            let side = values::<S, V, T, N>(simd, &left, block, left_opposite, group);
             let least = (against + near.offset).min(far - along);
             least.min(side).store_slice(&mut to_least[to]);
         }
@@ -355,7 +351,7 @@ fn rest<S, V, T, const N: usize>(
     simd: S,
     rows: &[Row<T>; 3],
     block: &Block<T, 6>,
-    corners: [Corner; 3],
+    at: [Corner; 3],
     so_far: &[T; BLOCK],
     threshold: T,
 ) -> [[u8; BLOCK / 4]; 2]
@@ -375,9 +371,9 @@ where
     let [negative, positive] = &mut bytes;
     for group in 0..BLOCK / N {
         let least = V::from_slice(simd, &so_far[group * N..][..N])
-            .min(a.value::<S, T, N>(simd, block, corners[0], group, a.offset))
-            .min(b.value::<S, T, N>(simd, block, corners[1], group, b.offset))
-            .min(c.value::<S, T, N>(simd, block, corners[2], group, c.offset));
+            .min(values::<S, V, T, N>(simd, &a, block, at[0], group))
+            .min(values::<S, V, T, N>(simd, &b, block, at[1], group))
+            .min(values::<S, V, T, N>(simd, &c, block, at[2], group));
         negative[group] = least.simd_lt(-threshold).to_bitmask() as u8;
         positive[group] = least.simd_gt(threshold).to_bitmask() as u8;
     }

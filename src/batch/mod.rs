@@ -22,6 +22,7 @@ mod masks;
 #[cfg(feature = "parallel")]
 mod parallel;
 mod places;
+mod plane;
 mod relative;
 mod segments;
 mod spheres;

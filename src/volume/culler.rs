@@ -29,6 +29,7 @@ use crate::exact::dyadic::Dyadic;
 use crate::frustum::boundary::boundary;
 use crate::frustum::{Face, FaceSet, Frustum};
 use crate::math::Vec3;
+use wide::f64x2;
 
 /// A frustum made ready to be asked about volumes.
 ///
@@ -65,58 +66,54 @@ pub struct Culler {
     apart: Apart,
 }
 
-/// The rounded half spaces side by side.
+/// The rounded half spaces, two side by side.
 #[derive(Clone, Debug)]
 pub(super) struct Planes {
     /// Normals and offsets; where there is no face, one that everything is inside of.
-    numbers: [[f64; 6]; 4],
-    lengths: [f64; 6],
+    numbers: [[f64x2; 4]; 3],
+    lengths: [f64x2; 3],
     /// The greatest of the thresholds' constant parts.
     constant: f64,
 }
 
 impl Planes {
     fn new(half_spaces: &[HalfSpace]) -> Self {
-        let mut planes = Self {
-            numbers: [[0.0; 6], [0.0; 6], [0.0; 6], [MOST; 6]],
-            lengths: [0.0; 6],
-            constant: 0.0,
-        };
+        let mut numbers = [[0.0, 0.0, 0.0, MOST]; 6];
+        let mut lengths = [0.0; 6];
+        let mut constant = 0.0_f64;
         for (i, h) in half_spaces.iter().enumerate().take(6) {
-            for (row, number) in planes.numbers.iter_mut().zip(h.rounded()) {
-                row[i] = number;
-            }
-            planes.lengths[i] = h.length();
-            planes.constant = planes.constant.max(h.constant());
+            numbers[i] = h.rounded();
+            lengths[i] = h.length();
+            constant = constant.max(h.constant());
         }
-        planes
+        let two = |k: usize, of: &dyn Fn(usize) -> f64| f64x2::new([of(2 * k), of(2 * k + 1)]);
+        Self {
+            numbers: [0, 1, 2].map(|k| [0, 1, 2, 3].map(|j| two(k, &|i| numbers[i][j]))),
+            lengths: [0, 1, 2].map(|k| two(k, &|i| lengths[i])),
+            constant,
+        }
     }
 
     /// Whether a point is certainly inside of all.
     #[inline(always)]
     pub(super) fn certainly_have(&self, p: Vec3<f64>) -> bool {
-        let mut least = MOST;
-        for i in 0..6 {
-            let [a, b, c, d] = &self.numbers;
-            let at = value([a[i], b[i], c[i], d[i]], p);
-            least = if at < least { at } else { least };
+        let mut least = f64x2::splat(MOST);
+        for numbers in self.numbers {
+            least = least.fast_min(value(numbers, p));
         }
-        least > threshold(size(p), self.constant)
+        lesser(least) > threshold(size(p), self.constant)
     }
 
-    /// What is certain of a volume by rounded values.
+    /// What is certain of a volume by rounded values; nothing if a number is not finite.
     #[inline(always)]
     fn settle<V: Extent>(&self, middle: &V::Middle, size: f64) -> Option<Containment> {
-        // Written so that it is one instruction.
-        let less = |a: f64, b: f64| if b < a { b } else { a };
-        let (mut least, mut greatest) = (MOST, MOST);
-        for i in 0..6 {
-            let [a, b, c, d] = &self.numbers;
-            let numbers = [a[i], b[i], c[i], d[i]];
-            let [low, high] = V::values(middle, numbers, self.lengths[i]);
-            least = less(least, low);
-            greatest = less(greatest, high);
+        let (mut least, mut greatest) = (f64x2::splat(MOST), f64x2::splat(MOST));
+        for (numbers, length) in self.numbers.into_iter().zip(self.lengths) {
+            let [low, high] = V::values(middle, numbers, length);
+            least = least.fast_min(low);
+            greatest = greatest.fast_min(high);
         }
+        let (least, greatest) = (lesser(least), lesser(greatest));
         let threshold = threshold(size, self.constant);
         let is_within = greatest > threshold;
         if greatest < -threshold {
@@ -129,6 +126,13 @@ impl Planes {
             None
         }
     }
+}
+
+/// The lesser of two numbers side by side.
+#[inline(always)]
+fn lesser(pair: f64x2) -> f64 {
+    let [a, b] = pair.to_array();
+    if b < a { b } else { a }
 }
 
 /// How a volume lies to a frustum, and to which of its faces it still has to be held.
@@ -223,8 +227,35 @@ impl Culler {
         counts: &mut VolumeCounts,
     ) -> Result<Containment, VolumeError> {
         let volume = volume.into();
+        with_extent!(&volume, v => self.settled_or_checked(v, &volume, counts))
+    }
+
+    /// What is settled needs no other check than that of its order.
+    #[inline(always)]
+    fn settled_or_checked<V: Extent>(
+        &self,
+        v: &V,
+        volume: &Volume,
+        counts: &mut VolumeCounts,
+    ) -> Result<Containment, VolumeError> {
+        let middle = v.middle();
+        let size = V::size(&middle);
+        match self.planes.settle::<V>(&middle, size) {
+            Some(class) if v.is_ordered() => Ok(class),
+            _ => self.checked(v, volume, counts),
+        }
+    }
+
+    #[inline(never)]
+    fn checked<V: Extent>(
+        &self,
+        v: &V,
+        volume: &Volume,
+        counts: &mut VolumeCounts,
+    ) -> Result<Containment, VolumeError> {
         volume.check()?;
-        with_extent!(&volume, v => Ok(self.by_planes(v, counts)))
+        let middle = v.middle();
+        Ok(self.plane_by_plane(v, &middle, V::size(&middle), counts))
     }
 
     #[inline(always)]

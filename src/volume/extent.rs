@@ -24,6 +24,7 @@ use super::shape::{Aabb, Obb, Sphere};
 use super::{Containment, VolumeCounts};
 use crate::exact::Number;
 use crate::exact::dyadic::Dyadic;
+use crate::exact::float::Lanes;
 use crate::math::Vec3;
 use std::cmp::Ordering;
 
@@ -45,8 +46,11 @@ pub(super) trait Extent {
     /// What rounding errors are in proportion to.
     fn size(middle: &Self::Middle) -> f64;
 
-    /// The least and the greatest value of a half space with these numbers, rounded.
-    fn values(middle: &Self::Middle, numbers: [f64; 4], length: f64) -> [f64; 2];
+    /// Whether it is a volume if its numbers are finite.
+    fn is_ordered(&self) -> bool;
+
+    /// The least and the greatest value of half spaces with these numbers, rounded.
+    fn values<F: Lanes>(middle: &Self::Middle, numbers: [F; 4], length: F) -> [F; 2];
 
     /// The sign of an extreme value, exactly, where the rounded one leaves it open.
     fn sign_beyond_filter(
@@ -110,7 +114,7 @@ pub(super) trait Extent {
 
 /// A middle, and more or less what is around it.
 #[inline(always)]
-fn around(middle: f64, reach: f64) -> [f64; 2] {
+fn around<F: Lanes>(middle: F, reach: F) -> [F; 2] {
     [middle - reach, middle + reach]
 }
 
@@ -149,9 +153,15 @@ impl Extent for Aabb<f64> {
     }
 
     #[inline(always)]
-    fn values(Centred { center, half }: &Centred, n: [f64; 4], _: f64) -> [f64; 2] {
+    fn is_ordered(&self) -> bool {
+        let (a, b) = (self.min, self.max);
+        (a.x <= b.x) & (a.y <= b.y) & (a.z <= b.z)
+    }
+
+    #[inline(always)]
+    fn values<F: Lanes>(Centred { center, half }: &Centred, n: [F; 4], _: F) -> [F; 2] {
         let [a, b, c, _] = n;
-        let reach = a.abs() * half.x + b.abs() * half.y + c.abs() * half.z;
+        let reach = a.abs() * a.all(half.x) + b.abs() * a.all(half.y) + c.abs() * a.all(half.z);
         around(value(n, *center), reach)
     }
 
@@ -180,9 +190,14 @@ impl Extent for Obb<f64> {
     }
 
     #[inline(always)]
-    fn values(middle: &Obb<f64>, n: [f64; 4], _: f64) -> [f64; 2] {
+    fn is_ordered(&self) -> bool {
+        true
+    }
+
+    #[inline(always)]
+    fn values<F: Lanes>(middle: &Obb<f64>, n: [F; 4], _: F) -> [F; 2] {
         let [a, b, c, _] = n;
-        let along = |h: &Vec3<f64>| (a * h.x + b * h.y + c * h.z).abs();
+        let along = |h: &Vec3<f64>| (a * a.all(h.x) + b * a.all(h.y) + c * a.all(h.z)).abs();
         let [u, v, w] = &middle.half_axes;
         around(value(n, middle.center), (along(u) + along(v)) + along(w))
     }
@@ -219,8 +234,13 @@ impl Extent for Sphere<f64> {
     }
 
     #[inline(always)]
-    fn values(middle: &Sphere<f64>, n: [f64; 4], length: f64) -> [f64; 2] {
-        around(value(n, middle.center), middle.radius * length)
+    fn is_ordered(&self) -> bool {
+        self.radius >= 0.0
+    }
+
+    #[inline(always)]
+    fn values<F: Lanes>(middle: &Sphere<f64>, n: [F; 4], length: F) -> [F; 2] {
+        around(value(n, middle.center), length * length.all(middle.radius))
     }
 
     /// `g + r |n|` has the sign of g where that is not negative, else that of the

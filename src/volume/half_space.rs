@@ -28,6 +28,7 @@ use crate::exact::Number;
 use crate::exact::double_double::Dd;
 use crate::exact::dyadic::Dyadic;
 use crate::exact::expansion::{Expansion, in_safe_range};
+use crate::exact::float::Lanes;
 use crate::math::{Real, Vec3};
 use std::cmp::Ordering;
 
@@ -195,10 +196,11 @@ impl HalfSpace {
     }
 }
 
-/// `n . p + d`, in the order of operations that the bound is for.
+/// `n . p + d`, in the order of operations that the bound is for; of several half spaces, or of
+/// one.
 #[inline(always)]
-pub(super) fn value([a, b, c, d]: [f64; 4], p: Vec3<f64>) -> f64 {
-    (a * p.x + b * p.y) + (c * p.z + d)
+pub(super) fn value<F: Lanes>([a, b, c, d]: [F; 4], p: Vec3<f64>) -> F {
+    (a * a.all(p.x) + b * a.all(p.y)) + (c * a.all(p.z) + d)
 }
 
 /// How far a value may be off at a size.

@@ -109,11 +109,13 @@ impl<S: Simd, V: SimdFloat<S, Element: Real>> Crossings<S, V> {
         let [start, end] = [planes.near_far(p), planes.near_far(q)];
         let difference = start[0] - end[0];
         let scale = one / difference;
-        // What comes before all, and after all; an infinity has no room for a number.
+        // What comes before all, and after all; an infinity has no room for another number than 0.
         let (before, after) = (-one, one + one);
-        let near = (start[0] * scale).min(after);
         let far = (start[1] * -scale).min(after).max(before);
-        let (near, far) = (planes.numbered(near, 0), planes.numbered(far, 1));
+        let (near, far) = (
+            planes.numbered(start[0] * scale, 0),
+            planes.numbered(far, 1),
+        );
         let rises = difference.simd_lt(zero);
         let mut entry = Latest {
             first: rises.select(near, far),

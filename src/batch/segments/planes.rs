@@ -10,31 +10,14 @@
 //! most, is off by `E / |a - b|`, three roundings and what a face's number takes the place of: 17 u
 //! of a parameter up to 1, which [`ROUNDINGS`] covers.
 
+use crate::batch::plane::Plane;
 use crate::frustum::filter::Filter;
 use crate::math::Real;
-use crate::volume::{Row, Rows};
+use crate::volume::Rows;
 use fearless_simd::prelude::*;
 
 /// How many u a parameter's own operations are off, more than enough.
 const ROUNDINGS: f64 = 32.0;
-
-/// A half space `n . p + d`, everywhere the same.
-#[derive(Clone, Copy)]
-struct Plane<V> {
-    normal: [V; 3],
-    offset: V,
-}
-
-impl<V: Copy> Plane<V> {
-    #[inline(always)]
-    fn value<S: Simd, T>(&self, p: &[V; 3], offset: V) -> V
-    where
-        V: SimdFloat<S, Element = T>,
-    {
-        let [x, y, z] = self.normal;
-        p[0].mul_add(x, p[1].mul_add(y, p[2].mul_add(z, offset)))
-    }
-}
 
 /// What one frustum needs, in each lane.
 pub(super) struct Planes<S: Simd, V: SimdFloat<S>> {
@@ -66,10 +49,7 @@ impl<S: Simd, T: Real, V: SimdFloat<S, Element = T>> Planes<S, V> {
     #[inline(always)]
     pub(super) fn new(simd: S, rows: &Rows<T>, filter: &Filter) -> Self {
         let all = |v: T| V::splat(simd, v);
-        let plane = |row: &Row<T>| Plane {
-            normal: [all(row.normal[0]), all(row.normal[1]), all(row.normal[2])],
-            offset: all(row.offset),
-        };
+        let plane = |row| Plane::new(simd, row);
         let [a, b, c, d] = &rows.sides;
         let beyond = filter.certain_beyond();
         let up = |v: f64| T::from_f64(v).next_up();
@@ -107,7 +87,7 @@ impl<S: Simd, T: Real, V: SimdFloat<S, Element = T>> Planes<S, V> {
     /// The values of near and far at a point.
     #[inline(always)]
     pub(super) fn near_far(&self, p: &[V; 3]) -> [V; 2] {
-        let along = self.near.value::<S, T>(p, self.zero);
+        let along = self.near.along::<S>(p, self.zero);
         [along + self.near.offset, self.far - along]
     }
 
@@ -115,7 +95,7 @@ impl<S: Simd, T: Real, V: SimdFloat<S, Element = T>> Planes<S, V> {
     #[inline(always)]
     pub(super) fn side(&self, side: usize, p: &[V; 3]) -> V {
         let plane = &self.sides[side];
-        plane.value::<S, T>(p, plane.offset)
+        plane.along::<S>(p, plane.offset)
     }
 
     #[inline(always)]
