@@ -216,7 +216,7 @@ fn boxes(ours: &str) -> &'static str {
     }
 }
 
-/// The peers' times over exact-class V/W's, in means over the mixes.
+/// The peers' times over ours, for segments exact-class V/W's, in means over the mixes.
 pub fn headlines(rows: &[Row]) -> Vec<Headline> {
     let is_mix = |row: &&Row| !matches!(&row.input[..], "half-lattice" | "uniform");
     let mut all = Vec::new();

@@ -118,7 +118,7 @@ fn conclude(report: &Report, out: &mut impl Write) -> io::Result<()> {
     for fact in &report.facts {
         writeln!(out, "{}", table::fact(fact))?;
     }
-    let title = "times over exact-class V/W's, over the mixes";
+    let title = "times over ours (segments: exact-class V/W's), over the mixes";
     writeln!(out, "\n{title:<86} {:>5} {:>5}", "mean", "least")?;
     for headline in &report.headlines {
         writeln!(out, "{}", table::headline(headline))?;
