@@ -285,6 +285,44 @@ fn what_is_no_volume_is_refused() {
     assert_eq!(culler.classify(huge), Ok(Containment::Crossing));
 }
 
+/// Wherever it would lie, and however little it is inverted.
+#[test]
+fn a_box_inverted_in_one_coordinate_is_refused() {
+    let near = frusta::EndRect::new(1.0, -1.0, 1.0, -1.0, 1.0);
+    let far = frusta::EndRect::new(3.0, -3.0, 3.0, -3.0, 3.0);
+    let frustum = Frustum::new(Pose::IDENTITY, Shape::Finite { near, far }).unwrap();
+    let culler = Culler::new(&frustum);
+    let all: FaceSet = frustum.faces().iter().copied().collect();
+    for middle in [
+        [0.0, 0.0, 2.0],
+        [1.0, 1.0, 1.0],
+        [9.0, 0.0, 2.0],
+        [5e-324; 3],
+    ] {
+        for axis in 0..3 {
+            for less in [0.25, f64::EPSILON * middle[axis], 5e-324] {
+                let (min, mut max) = (middle, middle.map(|v| v + 0.125));
+                max[axis] = min[axis] - less;
+                if max[axis] == min[axis] {
+                    continue;
+                }
+                let volume = Aabb::new(min, max);
+                for error in [
+                    culler.classify(volume).unwrap_err(),
+                    culler.classify_exact(volume).unwrap_err(),
+                    culler.classify_among(volume, all, &mut None).unwrap_err(),
+                ] {
+                    let found = match error {
+                        VolumeError::Inverted { axis, .. } => axis as usize,
+                        _ => 3,
+                    };
+                    assert_eq!(found, axis, "{volume:?}");
+                }
+            }
+        }
+    }
+}
+
 /// Numbers without a pattern, always the same, in -1..1.
 fn numbers() -> impl FnMut() -> f64 {
     let mut state = 88_172_645_463_325_252_u64;
