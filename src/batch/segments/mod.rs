@@ -28,6 +28,8 @@ mod planes;
 mod queues;
 mod run;
 
+#[cfg(test)]
+use run::sixteen_singles;
 pub(super) use run::{Asked, Out, Unsure, doubles, singles};
 
 use crate::clip::Class;

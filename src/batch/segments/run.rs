@@ -279,6 +279,17 @@ pub(in crate::batch) fn singles(
     )
 }
 
+/// Sixteen singles at a time at any width: so that every machine tests what few have.
+#[cfg(test)]
+pub(in crate::batch) fn sixteen_singles(
+    level: Level,
+    asked: Asked<'_, f32>,
+    segments: &Segments<'_, f32>,
+    out: Out<'_, f32>,
+) -> Result<(), NonFiniteAt> {
+    at_width!(level, simd => run::<_, f32, f32x16<_>, 16>(simd, asked, segments, out))
+}
+
 /// At the machine's vector width, four doubles at a time.
 pub(in crate::batch) fn doubles(
     level: Level,

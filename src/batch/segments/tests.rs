@@ -4,7 +4,7 @@ use super::*;
 use crate::clip::Class;
 use crate::frustum::Direction;
 use crate::frustum::Frustum;
-use crate::math::{NonFiniteAt, Rect};
+use crate::math::{NonFiniteAt, PerReal, Rect};
 use crate::samples::{BLOCK as CASES, Family};
 use crate::simd::levels;
 use crate::volume::Culler;
@@ -85,6 +85,36 @@ fn families_in_singles_give_what_each_gives_alone() {
 #[test]
 fn families_in_doubles_give_what_each_gives_alone() {
     compare_families::<f64>();
+}
+
+/// Registers of sixteen give what those of eight do, at every width.
+#[test]
+fn sixteen_at_a_time_give_the_same() {
+    for family in if cfg!(miri) {
+        vec![Family::Random]
+    } else {
+        Family::ALL.to_vec()
+    } {
+        let scene = family.scene(7, 0);
+        let culler = Culler::new(scene.frustum());
+        let segments = (0..3 * CASES).map(|i| family.segment(&scene, 7, i));
+        let segments: Vec<Segment<f32>> = segments.collect();
+        let (mut eight, mut sixteen) = (SegmentIntervals::default(), SegmentIntervals::default());
+        for segments in [&segments[..], &segments[5..700.min(segments.len())]] {
+            let lot = Segments::from(segments);
+            culler.clip_intervals(lot, &mut eight).unwrap();
+            for level in levels() {
+                let asked = Asked {
+                    frustum: culler.frustum(),
+                    rows: culler.rows().single(),
+                    doubles: culler.rows().double(),
+                };
+                let out = sixteen.prepare(segments.len());
+                sixteen_singles(level, asked, &lot, out).unwrap();
+                assert!(eight == sixteen, "{family:?}, {level:?}");
+            }
+        }
+    }
 }
 
 /// Numbers without a pattern, always the same, in -1..1.
