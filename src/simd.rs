@@ -5,7 +5,7 @@
 #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
 macro_rules! at_width {
     ($level:expr, $simd:ident => $run:expr, $wide:ident => $run_wide:expr) => {
-        if let Some($wide) = $level.as_avx512().filter(|_| std::env::var_os("NARROW").is_none()) {
+        if let Some($wide) = $level.as_avx512() {
             $wide.vectorize(
                 #[inline(always)]
                 || $run_wide,

@@ -104,7 +104,8 @@ impl Planes {
         lesser(least) > threshold(size(p), self.constant)
     }
 
-    /// What is certain of a volume by rounded values; nothing if a number is not finite.
+    /// What is certain of a volume by rounded values, if it is ordered; nothing then if a number
+    /// is not finite.
     #[inline(always)]
     fn settle<V: Extent>(&self, middle: &V::Middle, size: f64) -> Option<Containment> {
         let (mut least, mut greatest) = (f64x2::splat(MOST), f64x2::splat(MOST));

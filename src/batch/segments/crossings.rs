@@ -5,13 +5,17 @@
 //! rises is entered there, if it is met at all: t is less than 0 where the segment began beyond an
 //! entry, more than 1 where it ends before an exit. So the signs of differences tell entries from
 //! exits, and what is not met needs no mask: it is never the last nor the first of those that are.
-//! That holds for rounded parameters: a value beyond its threshold is more than 8 u of any
-//! difference, and a parameter is off by less than 4 u of itself.
+//! That holds for rounded parameters: a value beyond its threshold is more than 8 u of its face's
+//! difference, and a side's or near's parameter is off by less than 4 u of itself; a face's number
+//! takes the place of its last three bits, which are zeros in 0, 1 and 2.
 //!
 //! # One difference for near and far
 //! Their values rise and fall together: one of them is entered, the other left. The difference of
 //! near's values stands for both, so that far's parameter is off by 7.2 u S + 4.2 u |d| over it
-//! (`proofs/half_space.gappa`), of the 8 of each that a threshold has (`planes.rs`).
+//! (`proofs/half_space.gappa`), of the 8 of each that a threshold has (`planes.rs`). So it is on the
+//! right side, too: where far is met both its values are beyond their threshold. And
+//! the difference is off by less than a quarter of that, so that it is not less than the
+//! larger of far's values, to which the smaller one adds.
 
 use super::planes::Planes;
 use crate::math::Real;

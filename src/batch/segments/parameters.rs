@@ -113,7 +113,7 @@ impl<S: Simd, V: Halves<S>> Faces<S, V> {
         let all = |v: f64| V::Half::splat(simd, v);
         Self {
             numbers: numbers.map(|numbers| V::table(simd, numbers)),
-            // A size in singles may be 6 u less than it is.
+            // A size in singles may be 5 u less than it is.
             factor: all(rows.factor * 1.000_001),
             constant: all(rows.constant),
             rounding: all(ROUNDINGS),
