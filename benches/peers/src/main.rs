@@ -1,4 +1,4 @@
-//! `frusta-peers [--quick] [--seed N] [--out FILE]`: everybody does the same jobs; a table, and
+//! `frusta-peers [--quick] [--seed N] [--cases N] [--out FILE]`: everybody does the same jobs; a table, and
 //! a file for `frusta report --peers FILE`.
 
 use clap::Parser;
@@ -21,6 +21,10 @@ struct Args {
     /// What random input is made from.
     #[arg(long, default_value_t = Effort::FULL.seed)]
     seed: u64,
+    /// Cases that are timed; of fewer than 262,144 branch predictors learn some by heart, of as
+    /// many small caches do not hold all.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=4_000_000))]
+    cases: Option<u32>,
     /// Where the file goes.
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
@@ -51,13 +55,15 @@ fn run(args: &Args) -> io::Result<()> {
         let answer = answer.ok_or_else(|| io::Error::other("no such input"))?;
         return writeln!(out, "{answer}");
     }
+    let usual = if args.quick {
+        Effort::QUICK
+    } else {
+        Effort::FULL
+    };
     let effort = Effort {
         seed: args.seed,
-        ..if args.quick {
-            Effort::QUICK
-        } else {
-            Effort::FULL
-        }
+        timed: args.cases.map_or(usual.timed, |cases| cases as usize),
+        ..usual
     };
     let failed = |path: &Path, e| io::Error::other(format!("{}: {e}", path.display()));
     if let Some(path) = &args.out {
