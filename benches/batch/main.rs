@@ -256,6 +256,31 @@ fn exact_of(name: &str, rounds: usize, culler: &Culler, all: &[Aabb<f32>]) {
     row(name, rounds, passes);
 }
 
+fn segments_by_threads(
+    name: &str,
+    rounds: usize,
+    culler: &Culler,
+    segments: &SegmentColumns,
+    count: usize,
+) {
+    let (mut one, mut all): (SegmentIntervals<f32>, _) = Default::default();
+    let range = || segments.range(0..count);
+    culler.clip_intervals(range(), &mut one).expect("finite");
+    culler
+        .par_clip_intervals(range(), &mut all)
+        .expect("finite");
+    assert!(one == all && one.classes().contains(&Class::Cross));
+    let by_one = timed(count, || {
+        culler.clip_intervals(range(), &mut one).expect("finite")
+    });
+    let by_all = timed(count, || {
+        culler
+            .par_clip_intervals(range(), &mut all)
+            .expect("finite")
+    });
+    row(name, rounds, vec![("one", by_one), ("all", by_all)]);
+}
+
 fn threads(rounds: usize) {
     let threads = rayon::current_num_threads();
     println!("\n{threads} threads: ns (times as fast as one)");
@@ -268,24 +293,12 @@ fn threads(rounds: usize) {
     let copy = timed(MANY, || to.copy_from(segments));
     let copy_by_all = timed(MANY, || to_by_all.par_copy_from(segments));
     row("a copy", rounds, vec![("one", copy), ("all", copy_by_all)]);
+    // More work than reading.
+    let long = SegmentColumns::new(&Mix::ALL[3].segments::<f32>(MANY, &pose));
+    segments_by_threads("long segments", rounds, culler, &long, MANY);
     for (place, count) in [("out of", MANY), ("in", COUNT)] {
-        let (mut one, mut all): (SegmentIntervals<f32>, _) = Default::default();
-        let range = || segments.range(0..count);
-        culler.clip_intervals(range(), &mut one).expect("finite");
-        culler
-            .par_clip_intervals(range(), &mut all)
-            .expect("finite");
-        assert!(one == all && one.classes().contains(&Class::Cross));
-        let by_one = timed(count, || {
-            culler.clip_intervals(range(), &mut one).expect("finite")
-        });
-        let by_all = timed(count, || {
-            culler
-                .par_clip_intervals(range(), &mut all)
-                .expect("finite")
-        });
         let name = format!("segments, {place} cache");
-        row(&name, rounds, vec![("one", by_one), ("all", by_all)]);
+        segments_by_threads(&name, rounds, culler, segments, count);
 
         let (mut one, mut all): (ContainmentMasks, _) = Default::default();
         let set = &boxes.set(0..count);
