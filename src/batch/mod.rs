@@ -13,7 +13,10 @@
 //! spheres  balls
 //! segments class and parameters
 //! words    256 volumes at a time; what is not certain one by one
+//! plane    a half space in registers, of boxes and segments
 //! masks    bits, classes, lists of numbers
+//! places   where a byte's bits are
+//! parallel (feature) all by threads
 //! ```
 
 mod box_set;
