@@ -5,8 +5,6 @@
 //! Whatever is timed has had its answers compared: plain and exact, all forms, and
 //! on the 78 in the frame, where plain arithmetic makes no error.
 
-mod mixes;
-
 use criterion::measurement::WallTime;
 use criterion::{
     BenchmarkGroup, Criterion, SamplingMode, Throughput, criterion_group, criterion_main,
@@ -15,7 +13,9 @@ use frusta::{
     Accuracy, CohenSutherland, CyrusBeck, Frustum, LiangBarsky, LiangBarskyVariant, Pose, Real,
     Segment, SegmentClipper, SixPlanes, VwProjection,
 };
-use mixes::{COUNT, Form, Mix, assert_answers_agree, call, form_cases, frustum, singular};
+use frusta_lab::mixes::{
+    COUNT, Form, Mix, assert_answers_agree, call, form_cases, frustum, singular,
+};
 use std::hint::black_box;
 use std::time::Duration;
 

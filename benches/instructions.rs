@@ -18,15 +18,12 @@
 //! `algorithm, tier, mix`, and, for a segment, `instructions, branches,
 //! mispredicted_simulated` and `mispredicted` (null where nothing counts them).
 
-#[allow(dead_code, unused_imports, reason = "other benches use more")]
-mod mixes;
-
 use frusta::samples::Placement;
 use frusta::{
     Accuracy, CyrusBeck, Frustum, LiangBarsky, LiangBarskyVariant, Pose, Real, Segment,
     SegmentClip, SegmentClipper, VwProjection,
 };
-use mixes::{Form, Mix, assert_exact_agree, call, frustum, samples};
+use frusta_lab::mixes::{Form, Mix, assert_exact_agree, call, frustum, samples};
 use std::cell::RefCell;
 use std::error::Error;
 use std::hint::black_box;

@@ -5,7 +5,7 @@
 //! | [`math`] | points, segments, rectangles, poses |
 //! | [`frustum`] | [`Frustum`] and its constructors: [`Camera`], [`ViewProjection`], [`SixPoints`] |
 //! | [`clip`] | [`Frustum::clip_segment`], [`Frustum::clip_segments`], and the algorithms behind [`SegmentClipper`] |
-//! | [`volume`] | boxes, oriented boxes, spheres: outside, crossing or inside a frustum |
+//! | [`cull`] | boxes, oriented boxes, spheres: outside, crossing or inside a frustum |
 //! | [`guarantees`] | a page: what is guaranteed, and how it is known |
 //! | [`samples`] | the 78 singular samples, and seeded families of hard cases |
 //! | `oracle` | (feature `oracle`) the truth by rational arithmetic |
@@ -52,8 +52,8 @@
 //! (**G7**, how far an `Inward` end could still move outwards, is measured, not
 //! promised.) A coordinate that is not finite is an error, never a panic.
 
-pub mod batch;
 pub mod clip;
+pub mod cull;
 mod exact;
 pub mod frustum;
 pub mod guarantees;
@@ -61,15 +61,17 @@ mod interop;
 pub mod math;
 #[cfg(feature = "oracle")]
 pub mod oracle;
-#[cfg(feature = "report")]
-pub mod report;
+#[cfg(feature = "samples")]
 pub mod samples;
 mod simd;
-pub mod volume;
 
 pub use clip::{
     Accuracy, Arithmetic, Class, CohenSutherland, CyrusBeck, LiangBarsky, LiangBarskyVariant, Part,
     PartEnd, SegmentClip, SegmentClipper, SixPlanes, StageCounts, VwProjection,
+};
+pub use cull::{
+    Aabb, Containment, Culler, MaskedContainment, Obb, Sphere, Volume, VolumeCounts, VolumeError,
+    VolumeErrorAt,
 };
 pub use frustum::{
     Camera, ClipSpace, ClipY, Corners, DepthRange, Deviation, Direction, EndRect, Face, FaceSet,
@@ -77,9 +79,6 @@ pub use frustum::{
     Shape, SixPoints, Trapezoid, TrapezoidEnd, ViewProjection,
 };
 pub use math::{Axis, End, Interval, NonFinite, NonFiniteAt, Pose, Real, Rect, Segment, Vec3};
-pub use volume::{
-    Aabb, Among, Containment, Culler, Obb, Sphere, Volume, VolumeCounts, VolumeError, VolumeErrorAt,
-};
 
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]

@@ -1,6 +1,4 @@
 //! Whether a point is in a frustum, against the oracle.
-#![cfg(feature = "oracle")]
-
 use frusta::oracle::Oracle;
 use frusta::samples::{Family, Random};
 use frusta::{Accuracy, Axis, End, Frustum, NonFinite, Real, Segment, Vec3};

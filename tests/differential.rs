@@ -2,8 +2,6 @@
 //! singular: ends on vertices, edges, faces and lattice points, nudged by a few
 //! units in the last place, carried to other poses and scales.
 
-#![cfg(feature = "oracle")]
-
 use frusta::oracle::Oracle;
 use frusta::{
     Accuracy, Direction, EndRect, Frustum, Pose, Real, Rect, Segment, Shape, StageCounts, Vec3,

@@ -1,16 +1,12 @@
 //! What cameras and models at the edges of the number range give: the exact
 //! answer, or an error by name when the frustum is made.
 
-#![cfg(feature = "oracle")]
-
-mod check;
-
-use check::assert_guarantees;
 use frusta::samples::Random;
 use frusta::{
     Camera, Class, ClipSpace, EndRect, Frustum, FrustumError, MatrixLayout, Pose, Projection, Real,
     Rect, Segment, Shape, Vec3, ViewProjection,
 };
+use frusta_lab::check::assert_guarantees;
 
 /// Segments between points on, near and off the features of a frustum, all
 /// checked; returns how many there were of each class.

@@ -4,16 +4,12 @@
 //! Every test counts what it looked at, so that none can pass by looking at
 //! nothing.
 
-#![cfg(feature = "oracle")]
-
-mod check;
-
-use check::{ACCURACIES, bits, exact_clippers};
 use frusta::oracle::{
     Oracle, OracleClip, ViolationKind, check_idempotent, check_swapped, round_nearest,
 };
 use frusta::samples::{BLOCK, Family, Placement, Solid, singular_samples};
 use frusta::{Accuracy, Class, Face, FaceSet, Frustum, PartEnd, Real, Segment, SegmentClip, Vec3};
+use frusta_lab::check::{ACCURACIES, bits, exact_clippers};
 
 const SEED: u64 = 78;
 /// Cases of each family and scalar type: two frusta.

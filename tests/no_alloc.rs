@@ -1,8 +1,6 @@
 //! Clipping allocates nothing, except where big integers are needed.
 
-#[path = "../benches/mixes/mod.rs"]
-#[expect(dead_code, unused_imports, reason = "the benchmarks need more of it")]
-mod mixes;
+use frusta_lab::mixes;
 
 use frusta::samples::{BLOCK, Family, Placement, Solid, singular_samples};
 use frusta::{Accuracy, Frustum, Pose, Real, Segment, SegmentClipper, StageCounts, Vec3};

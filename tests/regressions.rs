@@ -1,14 +1,10 @@
 //! Inputs that once went wrong, verbatim; each test opens with what it was.
 
-#![cfg(feature = "oracle")]
-
-mod check;
-
-use check::assert_guarantees;
 use frusta::{
     Accuracy, Class, Direction, EndRect, Face, FaceSet, Frustum, LiangBarsky, LiangBarskyVariant,
     Pose, Rect, Segment, SegmentClipper, Shape, Vec3,
 };
+use frusta_lab::check::assert_guarantees;
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
 

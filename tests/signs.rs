@@ -1,13 +1,9 @@
 //! Segments for which a sign test must be just as it is: each is answered wrongly
 //! if one bound of its error is left out (see `scripts/mutants`).
 
-#![cfg(feature = "oracle")]
-
-mod check;
-
-use check::assert_guarantees;
 use frusta::samples::Random;
 use frusta::{Direction, EndRect, Face, FaceSet, Frustum, Pose, Rect, Segment, Shape, Vec3};
+use frusta_lab::check::assert_guarantees;
 
 /// Segments through the edge of near and left, or past it closely, that cross near at a
 /// small angle: its crossing is the less certain one.

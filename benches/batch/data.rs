@@ -1,6 +1,7 @@
 //! Segments and boxes as arrays.
 
-use frusta::batch::{BoxArrays, BoxSet, SegmentArrays};
+use frusta::clip::SegmentArrays;
+use frusta::cull::{BoxArrays, BoxSet};
 use frusta::{Aabb, FarCorners, Frustum, Segment};
 use rayon::prelude::*;
 use std::ops::Range;

@@ -9,24 +9,18 @@
 //! program would that goes on with the answers; *out of cache* four million with one call.
 
 mod data;
-#[path = "../mixes/mod.rs"]
-#[allow(
-    dead_code,
-    unused_imports,
-    reason = "the other benchmarks use more of it"
-)]
-mod mixes;
 mod separating;
 #[path = "../ratios/turns.rs"]
 mod turns;
 
 use data::{BoxColumns, SegmentColumns};
-use frusta::batch::{BoxSet, ContainmentMasks, SegmentIntervals};
+use frusta::clip::SegmentIntervals;
+use frusta::cull::{BoxSet, ContainmentMasks};
 use frusta::{
     Aabb, Accuracy, Class, Containment, Culler, Pose, Segment, SegmentClip, SegmentClipper,
     VwProjection,
 };
-use mixes::{COUNT, Form, Mix, call, frustum};
+use frusta_lab::mixes::{COUNT, Form, Mix, call, frustum};
 use separating::SeparatingAxes;
 use std::hint::black_box;
 use std::time::Instant;

@@ -5,8 +5,6 @@
 //! a ratio is taken within each round, and medians over the rounds are printed.
 //! Answers are compared first.
 
-#[path = "../mixes/mod.rs"]
-mod mixes;
 mod slices;
 mod turns;
 
@@ -14,7 +12,7 @@ use frusta::{
     Accuracy, CohenSutherland, CyrusBeck, Frustum, LiangBarsky, LiangBarskyVariant, Pose, Real,
     Segment, SegmentClipper, SixPlanes, VwProjection,
 };
-use mixes::{COUNT, Form, Mix, assert_answers_agree, call, form_cases, frustum};
+use frusta_lab::mixes::{COUNT, Form, Mix, assert_answers_agree, call, form_cases, frustum};
 use std::hint::black_box;
 use std::time::Instant;
 use turns::{Pass, take_turns};
@@ -86,7 +84,7 @@ fn table<T: Real>(scalar: &str, form: Form, (place, pose): (&str, Pose), rounds:
 /// The 78 singular samples: here plain answers may be wrong, so they are
 /// counted instead.
 fn singular(rounds: usize) {
-    for case in mixes::singular() {
+    for case in frusta_lab::mixes::singular() {
         println!("\nf64, the 78 singular samples, in the {}", case.place);
         let passes = clippers(&case.frustum, &case.segments);
         let (names, mut passes): (Vec<_>, Vec<_>) = passes.into_iter().unzip();

@@ -5,12 +5,12 @@
 //! the clips while they are in the cache. The clippers take turns; medians over
 //! rounds. Every answer of a slice is compared with that of the segment alone first.
 
-use crate::mixes::{self, COUNT, Form, Mix, frustum};
 use crate::turns::{Pass, take_turns};
 use frusta::{
     Accuracy, Frustum, LiangBarsky, LiangBarskyVariant, Real, Segment, SegmentClip, SegmentClipper,
     VwProjection,
 };
+use frusta_lab::mixes::{self, COUNT, Form, Mix, frustum};
 use std::hint::black_box;
 use std::time::Instant;
 

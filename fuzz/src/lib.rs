@@ -6,14 +6,14 @@
 
 mod build;
 mod case;
-#[path = "../../tests/check/mod.rs"]
-mod check;
+mod meter;
+pub mod readers;
 mod slices;
 mod volumes;
 
 use arbitrary::Unstructured;
 use case::Case;
-use frusta::report::{CaseLine, CaseSegment};
+use frusta_lab::{CaseLine, CaseSegment, check};
 use frusta::{
     CohenSutherland, CyrusBeck, Frustum, LiangBarsky, LiangBarskyVariant, Real, Segment,
     SegmentClipper, SixPlanes, VwProjection,

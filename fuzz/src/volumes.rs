@@ -1,9 +1,7 @@
 //! Volumes made of a case's segment, against integers; and batches against one at a time.
 
-use frusta::batch::{
-    BoxArrays, BoxSet, Boxes, ContainmentMasks, RelativeBoxes, SegmentArrays, SegmentIntervals,
-    Segments,
-};
+use frusta::clip::{SegmentArrays, SegmentIntervals, Segments};
+use frusta::cull::{BoxArrays, BoxSet, Boxes, ContainmentMasks, RelativeBoxes};
 use frusta::oracle::Oracle;
 use frusta::{
     Aabb, Class, Containment, Culler, Frustum, Obb, Real, Segment, Sphere, Vec3, Volume,

@@ -5,16 +5,17 @@ mod contains;
 pub(crate) mod cyrus_beck;
 mod exact;
 pub(crate) mod liang_barsky;
+pub(crate) mod many;
 pub(crate) mod plain;
 mod predicates;
 mod result;
 pub(crate) mod six_planes;
-pub(crate) mod slice;
 pub(crate) mod vw;
 
 pub use cohen_sutherland::CohenSutherland;
 pub use cyrus_beck::CyrusBeck;
 pub use liang_barsky::{LiangBarsky, LiangBarskyVariant};
+pub use many::intervals::{SegmentArrays, SegmentIntervals, Segments};
 pub use result::{Accuracy, Arithmetic, Class, Part, PartEnd, SegmentClip, StageCounts};
 pub use six_planes::SixPlanes;
 pub use vw::VwProjection;

@@ -16,34 +16,20 @@ use crate::math::{NonFinite, Real, Segment, Vec3};
 /// A plain clipper of checked segments.
 pub(crate) type PlainClip<T> = fn(&PlainFrustum<T>, &Segment<T>) -> SegmentClip<T>;
 
-/// Runs a plain clipper on a checked segment.
+/// Checks a segment and runs a plain clipper on it.
+///
+/// The clipper sees only segments whose coordinates' magnitudes have a finite
+/// sum, so that no difference and no interpolated coordinate overflows.
 #[inline(always)]
 pub(crate) fn run<T: Real>(
     frustum: &Frustum,
     segment: &Segment<T>,
     clip: PlainClip<T>,
 ) -> Result<SegmentClip<T>, NonFinite> {
-    match frustum.plain() {
-        Some(plain) => run_prepared(frustum, plain, segment, clip),
-        None => run_prepared(frustum, &frustum.plain_scaled(1.0), segment, clip),
-    }
-}
-
-/// The same with the frustum's coefficients.
-///
-/// The clipper sees only segments whose coordinates' magnitudes have a finite
-/// sum, so that no difference and no interpolated coordinate overflows.
-#[inline(always)]
-pub(crate) fn run_prepared<T: Real>(
-    frustum: &Frustum,
-    plain: &PlainFrustum<T>,
-    segment: &Segment<T>,
-    clip: PlainClip<T>,
-) -> Result<SegmentClip<T>, NonFinite> {
     let Segment { start: p, end: q } = segment;
     let sum = (p.x.abs() + p.y.abs() + p.z.abs()) + (q.x.abs() + q.y.abs() + q.z.abs());
     if sum.is_finite() {
-        return Ok(clip(plain, segment));
+        return Ok(clip(frustum.plain(), segment));
     }
     run_huge(frustum, segment, clip)
 }

@@ -39,7 +39,7 @@
 
 use super::plain::{self, Found, InFrame, max, min};
 use super::result::{Accuracy, Arithmetic, SegmentClip, StageCounts};
-use super::{SegmentClipper, exact, slice};
+use super::{SegmentClipper, exact, many};
 use crate::frustum::{Face, FaceSet, Frustum, Layout, PlainFrustum};
 use crate::math::{NonFinite, NonFiniteAt, Real, Segment};
 use fearless_simd::Level;
@@ -96,9 +96,9 @@ impl<T: Real> SegmentClipper<T> for VwProjection {
     ) -> Result<(), NonFiniteAt> {
         let level = Level::new();
         match self.arithmetic {
-            Arithmetic::Plain => slice::clip_plain(level, frustum, segments, clips),
+            Arithmetic::Plain => many::clip_plain(level, frustum, segments, clips),
             Arithmetic::Exact(accuracy) => {
-                slice::clip_exact(level, frustum, segments, accuracy, clips, counts)
+                many::clip_exact(level, frustum, segments, accuracy, clips, counts)
             }
         }
     }

@@ -103,7 +103,7 @@ fn round_units<T: Real>(quotient: u64, inexact: bool, unit: i32, least: i32) -> 
 }
 
 impl Number for Dyadic {
-    type NoRoom = Infallible;
+    type Overflow = Infallible;
 
     fn from_f64(value: f64) -> Self {
         let (mantissa, exponent) = decompose(value);

@@ -36,7 +36,7 @@ const MOST: f64 = 1.42724769270596e45;
 
 /// A result would have more than [`CAPACITY`] components.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct NoRoom;
+pub(crate) struct Overflow;
 
 /// An exact sum of doubles.
 #[derive(Clone, Copy, Debug)]
@@ -56,7 +56,7 @@ impl Expansion {
     }
 
     /// Adds one double.
-    fn grow(&mut self, value: f64) -> Result<(), NoRoom> {
+    fn grow(&mut self, value: f64) -> Result<(), Overflow> {
         let mut carry = value;
         let mut kept = 0;
         for i in 0..self.len {
@@ -69,7 +69,7 @@ impl Expansion {
         }
         self.len = kept;
         if carry != 0.0 {
-            *self.parts.get_mut(kept).ok_or(NoRoom)? = carry;
+            *self.parts.get_mut(kept).ok_or(Overflow)? = carry;
             self.len += 1;
         }
         Ok(())
@@ -116,7 +116,7 @@ impl Expansion {
 }
 
 impl Number for Expansion {
-    type NoRoom = NoRoom;
+    type Overflow = Overflow;
 
     fn from_f64(value: f64) -> Self {
         let mut e = Expansion::ZERO;
@@ -135,7 +135,7 @@ impl Number for Expansion {
         e
     }
 
-    fn add(&self, other: &Self) -> Result<Self, NoRoom> {
+    fn add(&self, other: &Self) -> Result<Self, Overflow> {
         let mut sum = *self;
         for &part in other.parts() {
             sum.grow(part)?;
@@ -144,10 +144,10 @@ impl Number for Expansion {
         Ok(sum)
     }
 
-    fn mul(&self, other: &Self) -> Result<Self, NoRoom> {
+    fn mul(&self, other: &Self) -> Result<Self, Overflow> {
         // Many components: the big integers are faster.
         if 2 * self.len * other.len > CAPACITY {
-            return Err(NoRoom);
+            return Err(Overflow);
         }
         let mut product = Expansion::ZERO;
         for &a in self.parts() {

@@ -16,7 +16,7 @@ pub(crate) trait Lanes:
     Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self>
 {
     /// The same value in each lane.
-    fn all(self, value: f64) -> Self;
+    fn splat(self, value: f64) -> Self;
 
     /// Magnitudes.
     fn abs(self) -> Self;
@@ -32,7 +32,7 @@ pub(crate) trait Lanes:
 
 impl Lanes for f64 {
     #[inline(always)]
-    fn all(self, value: f64) -> Self {
+    fn splat(self, value: f64) -> Self {
         value
     }
 
@@ -44,7 +44,7 @@ impl Lanes for f64 {
 
 impl Lanes for f64x2 {
     #[inline(always)]
-    fn all(self, value: f64) -> Self {
+    fn splat(self, value: f64) -> Self {
         f64x2::splat(value)
     }
 
@@ -118,7 +118,7 @@ const SPLITTER: f64 = 134_217_729.0;
 /// The upper and the lower half of a double's bits.
 #[inline(always)]
 pub(crate) fn split<F: Lanes>(a: F) -> (F, F) {
-    let c = a.all(SPLITTER) * a;
+    let c = a.splat(SPLITTER) * a;
     let high = c - (c - a);
     (high, a - high)
 }

@@ -16,22 +16,22 @@ use std::cmp::Ordering;
 /// at all.
 pub(crate) trait Number: Sized {
     /// Why there is no result: `Infallible` for a type that has room for all.
-    type NoRoom;
+    type Overflow;
     /// The value of a double.
     fn from_f64(value: f64) -> Self;
     /// `a - b` of two doubles.
     fn difference(a: f64, b: f64) -> Self;
     /// The sum.
-    fn add(&self, other: &Self) -> Result<Self, Self::NoRoom>;
+    fn add(&self, other: &Self) -> Result<Self, Self::Overflow>;
     /// The product.
-    fn mul(&self, other: &Self) -> Result<Self, Self::NoRoom>;
+    fn mul(&self, other: &Self) -> Result<Self, Self::Overflow>;
     /// The additive inverse.
     fn neg(self) -> Self;
     /// The order to zero.
     fn sign(&self) -> Ordering;
 
     /// `self - other`.
-    fn sub(&self, other: Self) -> Result<Self, Self::NoRoom> {
+    fn sub(&self, other: Self) -> Result<Self, Self::Overflow> {
         self.add(&other.neg())
     }
 }

@@ -12,7 +12,7 @@
 //! a pyramid with its apex at the eye; `far = f64::INFINITY` takes the far face
 //! away.
 
-use super::exact_vec::{cross, difference, exact, unit};
+use super::eval::exact_vec::{cross, difference, exact, unit};
 use super::{Direction, EndRect, Frustum, FrustumError, Shape};
 use crate::math::{Pose, Rect, Vec3};
 use std::f64::consts::PI;

@@ -6,7 +6,7 @@
 //! is rounded here serves no exact decision: they are made on the frustum itself or, about balls,
 //! on what is not rounded yet.
 
-use super::exact_vec::{Dyadic, Dyadic3, Rounded, cross, dot, exact, normalised_by_power};
+use super::eval::exact_vec::{Dyadic, Dyadic3, Rounded, cross, dot, exact, normalised_by_power};
 use super::{EndRect, Face, Frustum, Shape};
 use crate::math::{Rect, Vec3};
 

@@ -6,7 +6,7 @@
 //! `8 u` times that sum, plus what underflows. What the filter does not settle
 //! goes to integers.
 
-use super::exact_vec::{Rounded, cross, dot, exact};
+use super::eval::exact_vec::{Rounded, cross, dot, exact};
 use crate::math::Vec3;
 use std::cmp::Ordering;
 

@@ -19,7 +19,7 @@
 //! that looks right: see [`ClipSpace`] and [`MatrixLayout`]. Handedness needs
 //! no convention; the rows have it.
 
-use super::exact_vec::{Dyadic, Dyadic3, Rounded, cross, dot, exact, unit};
+use super::eval::exact_vec::{Dyadic, Dyadic3, Rounded, cross, dot, exact, unit};
 use super::{Direction, EndRect, Frustum, FrustumError, Shape};
 use crate::math::{Pose, Real, Rect, Vec3};
 use std::cmp::Ordering;

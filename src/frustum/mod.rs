@@ -1,16 +1,12 @@
 //! The frustum: its canonical form and how to make one.
 
-pub(crate) mod boundary;
 mod camera;
 pub(crate) mod corners;
 mod error;
-pub(crate) mod exact_vec;
+pub(crate) mod eval;
 mod face;
-pub(crate) mod filter;
 mod independent;
 mod matrix;
-mod plain;
-mod precise;
 mod shape;
 mod six_points;
 mod trapezoid;
@@ -19,19 +15,19 @@ mod window;
 pub use camera::{Camera, Projection};
 pub use corners::{Corners, FarCorners, Plane};
 pub use error::FrustumError;
+pub(crate) use eval::plain::{Form, General, Layout, Orthographic, PlainFrustum, Symmetric, Term};
 pub use face::{Face, FaceSet, FaceSetIter};
 pub use matrix::{
     ClipSpace, ClipY, DepthRange, Deviation, MatrixFrustum, MatrixLayout, ViewProjection,
 };
-pub(crate) use plain::{Form, General, Layout, Orthographic, PlainFrustum, Symmetric, Term};
 pub use shape::{Direction, EndRect, Shape};
 pub use six_points::SixPoints;
 pub use trapezoid::{Trapezoid, TrapezoidEnd};
 
 use crate::math::{Pose, Real, Vec3};
-use filter::Filter;
+use eval::filter::Filter;
+use eval::plain::PlainPair;
 use independent::independent;
-use plain::PlainPair;
 use std::fmt;
 
 /// A view frustum: the closed set of the points whose frame coordinates (see
@@ -105,9 +101,9 @@ impl Frustum {
         &self.shape
     }
 
-    /// Coefficients for plain arithmetic in `T`, which there are for `f32` and `f64`.
+    /// Coefficients for plain arithmetic in `T`.
     #[inline(always)]
-    pub(crate) fn plain<T: Real>(&self) -> Option<&PlainFrustum<T>> {
+    pub(crate) fn plain<T: Real>(&self) -> &PlainFrustum<T> {
         T::pick(&self.plain)
     }
 

@@ -21,7 +21,7 @@
 //! Six points overdetermine a frustum: angles that should be right are checked,
 //! up to what rounding of the points explains and [`SixPoints::SKEW`].
 
-use super::exact_vec::{
+use super::eval::exact_vec::{
     Dyadic, Dyadic3, Rounded, difference, dot, exact, normalised_by_power, unit,
 };
 use super::{EndRect, Frustum, FrustumError, Shape};

@@ -8,7 +8,7 @@
 //! a far rectangle. A window that rounding leaves without width or height at
 //! both ends is refused.
 
-use super::exact_vec::{Dyadic, Rounded};
+use super::eval::exact_vec::{Dyadic, Rounded};
 use super::{Frustum, FrustumError, Shape};
 use crate::math::Rect;
 

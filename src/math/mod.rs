@@ -15,8 +15,6 @@ pub use interval::Interval;
 pub use pose::Pose;
 pub(crate) use real::PerReal;
 pub use real::Real;
-#[cfg(feature = "report")]
-pub(crate) use real::Sealed;
 pub(crate) use real::Short;
 pub use rect::Rect;
 pub use segment::{End, NonFinite, NonFiniteAt, Segment};

@@ -18,40 +18,26 @@ mod sealed {
     }
 
     pub trait Sealed: Sized {
-        /// The one of the two that is made for this type; `None` for a type that
-        /// nothing is kept for.
-        fn pick<P: PerReal>(both: &P) -> Option<&P::Of<Self>>
+        /// The one of the two that is made for this type.
+        fn pick<P: PerReal>(both: &P) -> &P::Of<Self>
         where
             Self: Real;
-
-        /// `self * factor + term`: wherever plain arithmetic adds a product.
-        /// Rounded twice, but by a scalar type made to round it once.
-        #[must_use]
-        #[inline(always)]
-        fn times_plus(self, factor: Self, term: Self) -> Self
-        where
-            Self: Real,
-        {
-            self * factor + term
-        }
     }
     impl Sealed for f32 {
         #[inline(always)]
-        fn pick<P: PerReal>(both: &P) -> Option<&P::Of<f32>> {
-            Some(both.single())
+        fn pick<P: PerReal>(both: &P) -> &P::Of<f32> {
+            both.single()
         }
     }
     impl Sealed for f64 {
         #[inline(always)]
-        fn pick<P: PerReal>(both: &P) -> Option<&P::Of<f64>> {
-            Some(both.double())
+        fn pick<P: PerReal>(both: &P) -> &P::Of<f64> {
+            both.double()
         }
     }
 }
 
 pub(crate) use sealed::PerReal;
-#[cfg(feature = "report")]
-pub(crate) use sealed::Sealed;
 
 /// A scalar of a point: `f32` or `f64`. Sealed.
 pub trait Real:

@@ -75,18 +75,16 @@ impl<T: Real> Vec3<T> {
     #[must_use]
     #[inline(always)]
     pub fn dot(self, other: Self) -> T {
-        let first = self.x * other.x;
-        self.z
-            .times_plus(other.z, self.y.times_plus(other.y, first))
+        self.x * other.x + self.y * other.y + self.z * other.z
     }
 
     /// `self * factor + point`.
     #[inline(always)]
     pub(crate) fn times_plus(self, factor: T, point: Self) -> Self {
         Vec3::new(
-            self.x.times_plus(factor, point.x),
-            self.y.times_plus(factor, point.y),
-            self.z.times_plus(factor, point.z),
+            self.x * factor + point.x,
+            self.y * factor + point.y,
+            self.z * factor + point.z,
         )
     }
 

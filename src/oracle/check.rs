@@ -281,7 +281,7 @@ pub fn check_swapped<T: Real>(
 }
 
 /// Whether one answer is the other with entry and exit swapped.
-pub(crate) fn is_mirrored<T: Real>(answer: &SegmentClip<T>, of_reversed: &SegmentClip<T>) -> bool {
+pub fn is_mirrored<T: Real>(answer: &SegmentClip<T>, of_reversed: &SegmentClip<T>) -> bool {
     let same_part = |a: &Part<T>, b: &Part<T>| {
         a.coplanar == b.coplanar && mirrored(&a.entry, &b.exit) && mirrored(&a.exit, &b.entry)
     };

@@ -43,9 +43,7 @@ mod vector;
 mod violation;
 mod volume;
 
-#[cfg(feature = "report")]
-pub(crate) use check::is_mirrored;
-pub use check::{check, check_idempotent, check_swapped};
+pub use check::{check, check_idempotent, check_swapped, is_mirrored};
 pub use gauge::Gauge;
 pub use reference::OracleClipper;
 pub use round::round_nearest;

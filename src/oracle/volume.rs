@@ -18,8 +18,8 @@ use super::half_space::HalfSpace;
 use super::nearest::{ExactBall, Nearest};
 use super::separation::{ExactBox, Separation};
 use super::vector::{Vector, dot, exact, exact_point, minus, plus, times};
+use crate::cull::{Aabb, Containment, Volume};
 use crate::frustum::FaceSet;
-use crate::volume::{Aabb, Containment, Volume};
 use std::cmp::Ordering;
 
 /// A volume's numbers, exactly.

@@ -6,10 +6,10 @@ use super::frame::{Frame, Skeleton};
 use super::separation::ExactBox;
 use super::vector::{Vector, cross, dot, exact, exact_point, plus, times};
 use super::*;
+use crate::cull::{Aabb, Containment, Obb, Sphere, Volume};
 use crate::frustum::{Direction, EndRect, Face};
 use crate::math::Rect;
 use crate::samples::{BLOCK, Family, hard_box, hard_obb, hard_sphere};
-use crate::volume::{Aabb, Containment, Obb, Sphere, Volume};
 
 /// 90 degrees wide, from 1 to 3.
 fn symmetric() -> Oracle {

@@ -112,7 +112,7 @@ impl Aim<'_> {
         [(); 3].map(|()| match self.random.below(3) {
             0 => 0.0,
             1 => 1.0,
-            // Halves are exact more often than other points.
+            // Widen are exact more often than other points.
             _ if self.random.one_in(2) => 0.5,
             _ => self.random.unit(),
         })

@@ -1,9 +1,9 @@
 //! The volumes have the relations to their frusta that they are made for.
 
 use super::*;
+use crate::cull::{Aabb, Containment, Obb, Sphere, Volume};
 use crate::math::{Real, Vec3};
 use crate::oracle::Oracle;
-use crate::volume::{Aabb, Containment, Obb, Sphere, Volume};
 use std::collections::BTreeMap;
 
 /// A coordinate moved by some ulps; a zero by those of `scale`.

@@ -16,9 +16,9 @@ use super::random::Random;
 use super::scene::Scene;
 use super::segments::{Aim, largest, tidied};
 use super::solid::BOUNDS;
+use crate::cull::{Aabb, Obb, Sphere};
 use crate::frustum::{Face, FaceSet, Frustum, Shape};
 use crate::math::{Pose, Real, Vec3};
-use crate::volume::{Aabb, Obb, Sphere};
 
 /// A box along the axes for a scene, made from the scene, a seed and a number alone.
 ///

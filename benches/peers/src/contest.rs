@@ -9,7 +9,7 @@ use crate::boxes::{
     Batch, BevyLoop, Collision, GridBox, OursBatch, OursBox, OursPoint, PackedSpatialIndex,
     REFERENCE_BOX, REFERENCE_BOXES, TreeCuller, Truth,
 };
-use crate::mixes::{self, Mix};
+use frusta_lab::mixes::{self, Mix};
 use crate::peer::{Case, Contestant, Timed, enter};
 use crate::quads::{PlaneSplit, Quad};
 use crate::scene::{Block, Camera};

@@ -26,10 +26,3 @@ pub mod tally;
 pub mod turns;
 pub mod versions;
 
-#[path = "../../mixes/mod.rs"]
-#[expect(
-    dead_code,
-    unused_imports,
-    reason = "frusta's own benchmarks need more of it"
-)]
-mod mixes;

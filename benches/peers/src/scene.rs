@@ -1,6 +1,6 @@
 //! The frusta, and the matrices and boxes that describe them to the others.
 
-use crate::mixes::{self, Form};
+use frusta_lab::mixes::{self, Form};
 use frusta::{EndRect, Frustum, Pose, Rect, Shape, Vec3};
 
 /// A symmetric perspective camera.

@@ -12,7 +12,7 @@ use super::pair::{self, Ends};
 use crate::clip::plain::outside;
 use crate::clip::{Class, SegmentClip};
 use crate::frustum::FaceSet;
-use crate::frustum::filter::{Filter, Values};
+use crate::frustum::eval::filter::{Filter, Values};
 use crate::math::{Real, Segment};
 use wide::f64x2;
 

@@ -8,7 +8,7 @@
 
 use crate::clip::{Class, Part, PartEnd, SegmentClip};
 use crate::frustum::FaceSet;
-use crate::frustum::filter::Filter;
+use crate::frustum::eval::filter::Filter;
 use crate::math::{Real, Segment, Vec3};
 use wide::f64x2;
 

@@ -26,7 +26,7 @@ use crate::exact::Number;
 use crate::exact::double_double::Dd;
 use crate::exact::dyadic::Dyadic;
 use crate::exact::float::Single;
-use crate::frustum::filter::Filter;
+use crate::frustum::eval::filter::Filter;
 use crate::frustum::{Face, FaceSet};
 use crate::math::{End, Real, Segment, Vec3};
 use std::cmp::Ordering;

@@ -13,8 +13,8 @@ use crate::clip::predicates::Predicates;
 use crate::exact::Number;
 use crate::exact::dyadic::Dyadic;
 use crate::exact::expansion::{Expansion, in_safe_range};
-use crate::frustum::boundary::boundary;
-use crate::frustum::filter::{Filter, PRECISE, Values};
+use crate::frustum::eval::boundary::boundary;
+use crate::frustum::eval::filter::{Filter, PRECISE, Values};
 use crate::frustum::{Face, Frustum};
 use crate::math::{End, Segment, Vec3};
 use std::cmp::Ordering;
@@ -248,7 +248,7 @@ impl<'a> Staged<'a> {
 }
 
 /// `qa pb - pa qb`.
-fn cross<N: Number>(pa: &N, qa: &N, pb: &N, qb: &N) -> Result<N, N::NoRoom> {
+fn cross<N: Number>(pa: &N, qa: &N, pb: &N, qb: &N) -> Result<N, N::Overflow> {
     qa.mul(pb)?.sub(pa.mul(qb)?)
 }
 

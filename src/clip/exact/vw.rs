@@ -31,7 +31,7 @@ use crate::clip::plain::outside;
 use crate::clip::predicates::{Predicates, Role, Span};
 use crate::clip::{Accuracy, Class, SegmentClip, StageCounts};
 use crate::exact::float::Pair;
-use crate::frustum::filter::{Filter, Values};
+use crate::frustum::eval::filter::{Filter, Values};
 use crate::frustum::{Face, FaceSet, Form, Frustum, General, Layout, Orthographic, Symmetric};
 use crate::math::{End, NonFinite, Real, Segment};
 use wide::f64x2;

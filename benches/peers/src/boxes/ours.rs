@@ -2,7 +2,7 @@
 
 use super::GridBox;
 use crate::peer::{Contestant, Peer, Timed, Who};
-use frusta::batch::{BoxArrays, BoxSet, ContainmentMasks};
+use frusta::cull::{BoxArrays, BoxSet, ContainmentMasks};
 use frusta::{Aabb, Containment, Culler, Frustum, NonFinite, Vec3, VolumeError};
 use std::hint::black_box;
 

@@ -1,6 +1,6 @@
 //! What everybody is asked about, from a seed.
 
-use crate::mixes::{COUNT, Mix};
+use frusta_lab::mixes::{COUNT, Mix};
 use crate::quads::Quad;
 use frusta::samples::Random;
 use frusta::{Pose, Real, Segment, Vec3};

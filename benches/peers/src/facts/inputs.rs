@@ -1,7 +1,7 @@
 //! The inputs, what the peers make of them, and what frusta does.
 
 use crate::boxes::{Collision, GridBox, TreeCuller};
-use crate::mixes;
+use frusta_lab::mixes;
 use crate::peer::Peer;
 use crate::scene::{Block, Camera};
 use crate::segments::{

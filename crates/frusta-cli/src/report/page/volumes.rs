@@ -1,0 +1,89 @@
+//! Boxes, balls and batches.
+
+use super::words::{count, figure};
+use frusta_lab::{FalseAccepts, VolumeKind, VolumeSurvey, VolumeTally, VolumeTime};
+use maud::{Markup, html};
+
+/// The section.
+pub(super) fn section(volumes: &VolumeSurvey) -> Markup {
+    let cases: u64 = volumes.errors.iter().map(|(_, tally)| tally.cases).sum();
+    html! {
+        h2 #volumes { "Boxes and balls" }
+        p {
+            "What a program asks for each thing that it might draw: is it outside of the frustum, inside, or \
+             neither? " (count(cases)) " hard volumes of the families were asked about alone and in batches, at \
+             least half of them within 4 ulp of touching, and held against integers."
+        }
+        (errors(&volumes.errors))
+        h3 { "What faces let pass" }
+        p {
+            "Asked face by face, a box beyond an edge or a corner of the frustum is outside of none. The exact \
+             test finds it. The larger the boxes and the narrower the view, the more it \
+             takes out: boxes along the axes of up to a half extent, in parts of the far distance, evenly where \
+             one can touch the frustum\'s bounds; the camera is turned."
+        }
+        (accepts(&volumes.accepts))
+        h3 { "Times" }
+        (times(&volumes.times))
+        p.soft {
+            "All in f32, " (count(volumes.timed as u64)) " of each; batches of "
+            (count(VolumeSurvey::PIECE as u64)) " a call. Medians over " (volumes.rounds)
+            " rounds, in which all took turns. A set is boxes that are kept from frame to frame. Segments are the \
+             mixed ones; intervals are class and parameters, without points."
+        }
+    }
+}
+
+fn errors(rows: &[(VolumeKind, VolumeTally)]) -> Markup {
+    html! {
+        div.scroll { table {
+            thead { tr {
+                th.t {} th { "cases" } th { "wrong" } th { "wrongly outside" } th { "wrong in batches" }
+                th { "exact test wrong" }
+            } }
+            tbody { @for (kind, tally) in rows { tr {
+                td.t { (kind.name()) }
+                td { (count(tally.cases)) }
+                td { (count(tally.wrong)) }
+                td { (count(tally.wrongly_outside)) }
+                td { (count(tally.wrong_in_batch)) }
+                td { (count(tally.wrong_exact)) }
+            } } }
+        } }
+    }
+}
+
+fn accepts(rows: &[FalseAccepts]) -> Markup {
+    html! {
+        div.scroll { table {
+            thead { tr {
+                th { "half extent" } th { "view, radians" } th { "boxes" } th { "not rejected" }
+                th { "of these, apart" } th { "share, %" }
+            } }
+            tbody { @for row in rows { tr {
+                td { (row.size) }
+                td { (row.field_of_view) }
+                td { (count(row.boxes)) }
+                td { (count(row.accepted)) }
+                td { (count(row.falsely)) }
+                td { (figure(100.0 * row.share())) }
+            } } }
+        } }
+    }
+}
+
+fn times(rows: &[VolumeTime]) -> Markup {
+    html! {
+        div.scroll { table {
+            thead { tr {
+                th.t { "asked about" } th.t { "by" } th { "ns" } th { "times as fast as the first" }
+            } }
+            tbody { @for row in rows { tr {
+                td.t { (row.job) }
+                td.t { (row.function) }
+                td { (figure(row.timing.nanoseconds)) }
+                td { @if row.timing.ratio > 0.0 { (figure(1.0 / row.timing.ratio)) } @else { "-" } }
+            } } }
+        } }
+    }
+}

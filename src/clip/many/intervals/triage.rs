@@ -1,0 +1,160 @@
+//! What triage finds about a block, and what is found in the end.
+//!
+//! A mark is a pair of parameters: 1 and 0 of what is outside, 0 and 1 of what is inside, 0 and 0
+//! of what is open.
+
+use super::planes::Planes;
+use super::queues::BLOCK;
+use super::run::packs;
+use super::undecided::Undecided;
+use crate::clip::Class;
+use crate::math::Real;
+use fearless_simd::prelude::*;
+
+/// What triage finds about a block.
+pub(super) struct Triage<T> {
+    t0: [T; BLOCK],
+    t1: [T; BLOCK],
+}
+
+/// What is found about a block.
+pub(super) struct Found<'a, T> {
+    pub(super) classes: &'a mut [Class; BLOCK],
+    pub(super) t0: &'a mut [T; BLOCK],
+    pub(super) t1: &'a mut [T; BLOCK],
+}
+
+/// The points of a register of segments, from `at` on.
+#[inline(always)]
+pub(super) fn ends<S, V, const N: usize, const M: usize>(
+    simd: S,
+    block: [&[V::Element; M]; 6],
+    at: usize,
+) -> [[V; 3]; 2]
+where
+    S: Simd,
+    V: SimdFloat<S>,
+{
+    [
+        [
+            V::from_slice(simd, &block[0][at..at + N]),
+            V::from_slice(simd, &block[1][at..at + N]),
+            V::from_slice(simd, &block[2][at..at + N]),
+        ],
+        [
+            V::from_slice(simd, &block[3][at..at + N]),
+            V::from_slice(simd, &block[4][at..at + N]),
+            V::from_slice(simd, &block[5][at..at + N]),
+        ],
+    ]
+}
+
+impl<T: Real> Triage<T> {
+    pub(super) fn new() -> Self {
+        Self {
+            t0: [T::ZERO; BLOCK],
+            t1: [T::ZERO; BLOCK],
+        }
+    }
+
+    /// Triage what is outside of a face, or inside of all, by their values' signs, and packs
+    /// the rest, if registers can be packed.
+    #[inline(always)]
+    pub(super) fn triage<S, V, const N: usize>(
+        &mut self,
+        simd: S,
+        planes: &Planes<S, V>,
+        block: [&[T; BLOCK]; 6],
+        open: &mut Undecided<T>,
+    ) where
+        S: Simd,
+        V: SimdFloat<S, Element = T, Array = [T; N]>,
+    {
+        for at in (0..BLOCK).step_by(N) {
+            let ends = ends::<S, V, N, BLOCK>(simd, block, at);
+            let [p, q] = &ends;
+            let size = planes.size(&ends);
+            let [start, end] = [planes.near_far(p), planes.near_far(q)];
+            let mut greatest = start[0].max(end[0]).min(start[1].max(end[1]));
+            let mut least = start[0].min(end[0]).min(start[1].min(end[1]));
+            for side in 0..4 {
+                let (a, b) = (planes.side(side, p), planes.side(side, q));
+                greatest = greatest.min(a.max(b));
+                least = least.min(a.min(b));
+            }
+            let covered = planes.covers(&size);
+            let outside = covered & greatest.simd_lt(-size.threshold);
+            let inside = covered & least.simd_gt(size.threshold);
+            let to = at..at + N;
+            let (zero, one) = (planes.zero, planes.one);
+            outside
+                .select(one, zero)
+                .store_slice(&mut self.t0[to.clone()]);
+            inside.select(one, zero).store_slice(&mut self.t1[to]);
+            if packs(simd) {
+                open.pack::<S, V, N>(ends, !(outside | inside));
+            }
+        }
+    }
+
+    /// Nothing from `end` on is open; how many were.
+    pub(super) fn keep_below(&mut self, end: usize) -> usize {
+        let mut dropped = 0;
+        for (t0, t1) in self.t0[end..].iter_mut().zip(&self.t1[end..]) {
+            if *t0 == *t1 {
+                *t0 = T::ONE;
+                dropped += 1;
+            }
+        }
+        dropped
+    }
+
+    /// Which of a register of segments are open.
+    #[inline(always)]
+    pub(super) fn open<S, V, const N: usize>(&self, simd: S, at: usize) -> V::Mask
+    where
+        S: Simd,
+        V: SimdFloat<S, Element = T>,
+    {
+        let t0 = V::from_slice(simd, &self.t0[at..at + N]);
+        t0.simd_eq(V::from_slice(simd, &self.t1[at..at + N]))
+    }
+
+    /// All together.
+    #[inline(always)]
+    pub(super) fn close<S, V, const N: usize>(&self, simd: S, open: &Undecided<T>, to: Found<'_, T>)
+    where
+        S: Simd,
+        V: SimdFloat<S, Element = T>,
+    {
+        if packs(simd) {
+            let mut place = 0;
+            for at in (0..BLOCK).step_by(N) {
+                let lanes = self.open::<S, V, N>(simd, at);
+                let t0 = V::from_slice(simd, &self.t0[at..at + N]);
+                let t1 = V::from_slice(simd, &self.t1[at..at + N]);
+                let from = place..place + N;
+                let to_t0 = &mut to.t0[at..at + N];
+                let found = V::from_slice(simd, &open.t0[from.clone()]);
+                V::expand_merge(found, lanes, t0).store_slice(to_t0);
+                let to_t1 = &mut to.t1[at..at + N];
+                let found = V::from_slice(simd, &open.t1[from]);
+                V::expand_merge(found, lanes, t1).store_slice(to_t1);
+                place = (place + lanes.to_bitmask().count_ones() as usize).min(BLOCK);
+            }
+        } else {
+            *to.t0 = self.t0;
+            *to.t1 = self.t1;
+            open.scatter(to.t0, to.t1);
+        }
+        for i in 0..BLOCK {
+            to.classes[i] = if to.t0[i] > to.t1[i] {
+                Class::Outside
+            } else if self.t1[i] > self.t0[i] {
+                Class::Inside
+            } else {
+                Class::Cross
+            };
+        }
+    }
+}

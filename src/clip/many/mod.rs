@@ -1,0 +1,213 @@
+//! V/W over slices: segments side by side in the lanes of vector registers.
+//!
+//! # Idea
+//! ```text
+//! for each chunk of segments:
+//!     all are outside, until something else is known
+//!     triage    four at a time: the boundary values at both ends, and what their
+//!               signs prove; the numbers of the rest go to queues: inside,
+//!               lattice, crossing, unsure
+//!     lattice   four at a time, what is so coarse that nothing is rounded
+//!     crossing  four at a time from the queue: crossing parameters of all faces,
+//!               their latest entry and earliest exit; what is certain goes to a
+//!               queue with its two faces, the rest to the unsure
+//!     points    four at a time from the queue
+//!     inside    one by one: copies
+//!     unsure    one by one, as without slices
+//! ```
+//! Queues are filled without branches, so that nothing depends on what cannot be
+//! predicted: which segments of a mixed scene are outside, inside or cut. That
+//! costs a textbook clipper most of its time.
+//!
+//! V/W's symmetry gives the lanes their short values: left and right share a
+//! half-width, bottom and top another, near and far serve both trapezoids.
+//!
+//! # The same bits
+//! Each lane does what [`VwProjection`](crate::VwProjection) does with one segment, in
+//! the same order of operations, or hands it on to just that. The vector width is
+//! chosen once for a slice, at run time. The only fused operation is the rest of a
+//! product, which is exact either way.
+//!
+//! # Source
+//! Four side values as one vector: V/W's own symmetry (see `clip/vw.rs`). Queues
+//! instead of branches: as in vectorised data bases' selection vectors (Boncz,
+//! Zukowski, Nes, "MonetDB/X100", 2005).
+
+mod certified;
+pub(crate) mod intervals;
+mod lanes;
+mod lattice;
+mod plain;
+mod points;
+mod queue;
+
+use super::result::{Accuracy, SegmentClip, StageCounts};
+use crate::frustum::{Form, Frustum, General, PlainFrustum, Symmetric};
+use crate::math::{NonFinite, NonFiniteAt, PerReal, Real, Segment};
+use crate::simd::at_width;
+use fearless_simd::{Level, Simd};
+use queue::{CHUNK, Queues};
+
+/// Segments of a chunk, and where their clips go: as many, all outside.
+struct Chunk<'a, T> {
+    frustum: &'a Frustum,
+    segments: &'a [Segment<T>],
+    clips: &'a mut [SegmentClip<T>],
+}
+
+impl<T: Real> Chunk<'_, T> {
+    /// Clips some of the segments one by one, up to the first that is not finite.
+    fn clip_singly(
+        &mut self,
+        items: impl IntoIterator<Item = usize>,
+        mut clip: impl FnMut(&Frustum, &Segment<T>) -> Result<SegmentClip<T>, NonFinite>,
+    ) -> Result<(), NonFiniteAt> {
+        for index in items {
+            self.clips[index] = clip(self.frustum, &self.segments[index])
+                .map_err(|found| NonFiniteAt { index, found })?;
+        }
+        Ok(())
+    }
+}
+
+/// Clips by exact V/W. On an error `clips` is empty.
+pub(crate) fn clip_exact<T: Real>(
+    level: Level,
+    frustum: &Frustum,
+    segments: &[Segment<T>],
+    accuracy: Accuracy,
+    clips: &mut Vec<SegmentClip<T>>,
+    counts: &mut StageCounts,
+) -> Result<(), NonFiniteAt> {
+    let mut queues = Queues::new();
+    let kernels = T::pick(&Both);
+    in_chunks(frustum, segments, clips, |chunk| {
+        (kernels.exact)(level, chunk, accuracy, &mut queues, counts)
+    })
+}
+
+/// Clips by plain V/W. On an error `clips` is empty.
+pub(crate) fn clip_plain<T: Real>(
+    level: Level,
+    frustum: &Frustum,
+    segments: &[Segment<T>],
+    clips: &mut Vec<SegmentClip<T>>,
+) -> Result<(), NonFiniteAt> {
+    let mut queues = Queues::new();
+    let (kernels, plain) = (T::pick(&Both), frustum.plain());
+    in_chunks(frustum, segments, clips, |chunk| {
+        (kernels.plain)(level, chunk, plain, &mut queues)
+    })
+}
+
+/// What clips a chunk of one scalar type. Functions that are not generic are
+/// compiled once, here, and not in every crate that clips.
+struct Kernels<T: Real> {
+    exact: ExactKernel<T>,
+    plain: PlainKernel<T>,
+}
+
+type ExactKernel<T> =
+    fn(Level, Chunk<'_, T>, Accuracy, &mut Queues, &mut StageCounts) -> Result<(), NonFiniteAt>;
+
+type PlainKernel<T> =
+    fn(Level, Chunk<'_, T>, &PlainFrustum<T>, &mut Queues) -> Result<(), NonFiniteAt>;
+
+/// The kernels of both scalar types.
+struct Both;
+
+impl PerReal for Both {
+    type Of<T: Real> = Kernels<T>;
+
+    fn single(&self) -> &Kernels<f32> {
+        &Kernels {
+            exact: exact_singles,
+            plain: plain_singles,
+        }
+    }
+
+    fn double(&self) -> &Kernels<f64> {
+        &Kernels {
+            exact: exact_doubles,
+            plain: plain_doubles,
+        }
+    }
+}
+
+macro_rules! kernels {
+    ($($t:ident $exact:ident $plain:ident $registers:ident;)*) => {$(
+        fn $exact(
+            level: Level,
+            chunk: Chunk<'_, $t>,
+            accuracy: Accuracy,
+            queues: &mut Queues,
+            counts: &mut StageCounts,
+        ) -> Result<(), NonFiniteAt> {
+            at_width!(level, simd => exact_chunk(simd, chunk, accuracy, queues, counts))
+        }
+
+        fn $plain(
+            level: Level,
+            chunk: Chunk<'_, $t>,
+            frustum: &PlainFrustum<$t>,
+            queues: &mut Queues,
+        ) -> Result<(), NonFiniteAt> {
+            at_width!(level, simd => plain::$registers(simd, chunk, frustum, queues))
+        }
+    )*};
+}
+
+kernels! {
+    f32 exact_singles plain_singles singles;
+    f64 exact_doubles plain_doubles doubles;
+}
+
+fn in_chunks<T: Real>(
+    frustum: &Frustum,
+    segments: &[Segment<T>],
+    clips: &mut Vec<SegmentClip<T>>,
+    mut clip: impl FnMut(Chunk<'_, T>) -> Result<(), NonFiniteAt>,
+) -> Result<(), NonFiniteAt> {
+    clips.clear();
+    clips.reserve(segments.len());
+    for segments in segments.chunks(CHUNK) {
+        let done = clips.len();
+        clips.extend(segments.iter().map(|_| super::plain::outside()));
+        let chunk = Chunk {
+            frustum,
+            segments,
+            clips: &mut clips[done..],
+        };
+        if let Err(mut error) = clip(chunk) {
+            clips.clear();
+            error.index += done;
+            return Err(error);
+        }
+    }
+    Ok(())
+}
+
+#[inline(always)]
+fn exact_chunk<S: Simd, T: Real>(
+    simd: S,
+    chunk: Chunk<'_, T>,
+    accuracy: Accuracy,
+    queues: &mut Queues,
+    counts: &mut StageCounts,
+) -> Result<(), NonFiniteAt> {
+    let mut run = certified::Run {
+        quad: lanes::Quad(simd),
+        chunk,
+        accuracy,
+        queues,
+        counts,
+    };
+    match run.chunk.frustum.filter().form {
+        Form::Symmetric => run.clip::<Symmetric<true>>(),
+        Form::General | Form::Orthographic => run.clip::<General<true>>(),
+        Form::InfiniteSymmetric | Form::Infinite => run.clip::<General<false>>(),
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,221 @@
+//! A half space `n . p + d >= 0` that is known exactly, and its value at a point in
+//! stages, each of which hands on what it cannot settle.
+//!
+//! # Exactly
+//! The four numbers are sums of products of a frustum's doubles, formed in integers,
+//! times a power of two that brings the largest of `|n_j|` into `1/2 <= |n_j| < 1`. So
+//! a sign, and where `n` points, is known without error, for any frustum.
+//!
+//! # Rounded
+//! With u = 2^-53, S >= |p_x| + |p_y| + |p_z| and the four numbers rounded: a number
+//! has a relative error of u, a product adds u, each of two sums on its way adds u. What
+//! is multiplied is below 1, so
+//! ```text
+//! |g~ - g| <= 4.01 u S + 3.01 u |d|
+//! ```
+//! and the threshold is `T = 8 u S + 8 u |d| + FLOOR`: more than its own rounding takes,
+//! and FLOOR is more than underflow can do.
+//!
+//! # To 106 bits
+//! With a number as a sum of two doubles within u^2, a product adds 3 u^2, three sums
+//! of two doubles each add 3 u^2 (`exact/double_double.rs`): 13.1 u^2 S + 4.1 u^2 |d|. The
+//! threshold is 2^-51 of the other: 32 u^2 S + 32 u^2 |d| + 2^-51 FLOOR.
+//!
+//! A comparison is written with `>`, so that NaN and infinity fail it.
+
+use crate::exact::Number;
+use crate::exact::double_double::Dd;
+use crate::exact::dyadic::Dyadic;
+use crate::exact::expansion::{Expansion, in_safe_range};
+use crate::exact::float::Lanes;
+use crate::math::{Real, Vec3};
+use std::cmp::Ordering;
+
+/// 8 u.
+const ROUNDING: f64 = 8.0 * f64::UNIT_ROUNDOFF;
+/// From the rounded values' threshold to that of values of 106 bits: 2^-51.
+const PRECISE: f64 = 4.440892098500626e-16;
+/// About 2^-900: above what underflow does, below every size.
+const FLOOR: f64 = 1.183052186166774e-271;
+/// 2^900: below it nothing overflows on the way.
+pub(crate) const MOST: f64 = 8.452712498170644e270;
+
+/// What settled a sign that the rounded value left open.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Stage {
+    DoubleDouble,
+    Expansion,
+    Integer,
+}
+
+/// The points with `normal . p + offset >= 0`.
+#[derive(Clone, Debug)]
+pub(crate) struct HalfSpace {
+    exact: [Dyadic; 4],
+    /// Whether the normal points towards larger coordinates.
+    up: [bool; 3],
+    /// Rounded: normal and offset.
+    high: [f64; 4],
+    /// What that rounding took, rounded.
+    low: [f64; 4],
+    /// Whether the two sums are the numbers themselves, and fit expansions.
+    expands: bool,
+    length: f64,
+    /// The part of the threshold that does not depend on the point; infinite where
+    /// nothing is certain.
+    constant: f64,
+}
+
+impl HalfSpace {
+    /// From a normal and an offset; `None` for the zero vector.
+    pub(crate) fn new(numbers: [Dyadic; 4]) -> Option<Self> {
+        let top = numbers[..3].iter().filter_map(Dyadic::top).max()?;
+        let exact = numbers.map(|n| n.shifted(-top));
+        let one = Dyadic::from(1.0);
+        let rounded = |n: &Dyadic| n.round_quotient::<f64>(&one);
+        let high = exact.each_ref().map(rounded);
+        let rests: [Dyadic; 4] = std::array::from_fn(|i| match high[i].is_finite() {
+            true => &exact[i] - &Dyadic::from(high[i]),
+            false => Dyadic::from(0.0),
+        });
+        let low = rests.each_ref().map(rounded);
+        let whole = |i: usize| (&rests[i] - &Dyadic::from(low[i])).sign().is_eq();
+        let fits = high.iter().chain(&low).all(|&v| in_safe_range(v));
+        let square = (0..3).fold(Dyadic::from(0.0), |sum, j| &sum + &(&exact[j] * &exact[j]));
+        let certain = high[3].abs() < MOST;
+        Some(Self {
+            expands: fits && (0..4).all(whole),
+            length: rounded(&square).sqrt(),
+            constant: if certain {
+                ROUNDING * high[3].abs() + FLOOR
+            } else {
+                f64::INFINITY
+            },
+            up: [0, 1, 2].map(|j| exact[j].sign() == Ordering::Greater),
+            exact,
+            high,
+            low,
+        })
+    }
+
+    /// Normal and offset, rounded.
+    #[inline(always)]
+    pub(crate) fn rounded(&self) -> [f64; 4] {
+        self.high
+    }
+
+    /// The length of the normal, within 2 u.
+    #[inline(always)]
+    pub(crate) fn length(&self) -> f64 {
+        self.length
+    }
+
+    /// Whether the normal points towards larger coordinates, exactly.
+    #[inline(always)]
+    pub(crate) fn points_up(&self, axis: usize) -> bool {
+        self.up[axis]
+    }
+
+    /// The part of [`HalfSpace::threshold`] that does not depend on the point.
+    pub(crate) fn constant(&self) -> f64 {
+        self.constant
+    }
+
+    /// How far a value may be off at a size.
+    #[inline(always)]
+    pub(crate) fn threshold(&self, size: f64) -> f64 {
+        threshold(size, self.constant)
+    }
+
+    /// The sign of the value at a point that the rounded value leaves open, and the stage that
+    /// settled it.
+    #[cold]
+    pub(crate) fn sign_beyond_filter(&self, p: Vec3<f64>) -> (Ordering, Stage) {
+        let value = self.precise(p);
+        if value.abs() > PRECISE * self.threshold(size(p)) {
+            return (value.total_cmp(&0.0), Stage::DoubleDouble);
+        }
+        if self.expands
+            && p.to_array().into_iter().all(in_safe_range)
+            && let Ok(value) = self.expansion(p)
+        {
+            return (value.sign(), Stage::Expansion);
+        }
+        (self.integer(p).sign(), Stage::Integer)
+    }
+
+    /// The value to 106 bits, its upper part.
+    fn precise(&self, p: Vec3<f64>) -> f64 {
+        let number = |i: usize| Dd::new(self.high[i], self.low[i]);
+        let [x, y, z] = [0, 1, 2].map(|j| number(j).mul_f64(p[j]));
+        x.add(y).add(z).add(number(3)).hi
+    }
+
+    fn expansion(&self, p: Vec3<f64>) -> Result<Expansion, <Expansion as Number>::Overflow> {
+        let number =
+            |i: usize| Expansion::from_f64(self.low[i]).add(&Expansion::from_f64(self.high[i]));
+        let mut sum = number(3)?;
+        for j in 0..3 {
+            if p[j] != 0.0 {
+                sum = sum.add(&number(j)?.mul(&Expansion::from_f64(p[j]))?)?;
+            }
+        }
+        Ok(sum)
+    }
+
+    /// The value, exactly.
+    pub(crate) fn integer(&self, p: Vec3<f64>) -> Dyadic {
+        &self.along(p) + &self.exact[3]
+    }
+
+    /// The value, exactly, then rounded; infinite beyond the range.
+    pub(crate) fn value_rounded(&self, p: Vec3<f64>) -> f64 {
+        self.integer(p).round_quotient::<f64>(&Dyadic::from(1.0))
+    }
+
+    /// The inner product with the normal, exactly.
+    pub(crate) fn along(&self, v: Vec3<f64>) -> Dyadic {
+        (0..3).fold(Dyadic::from(0.0), |sum, j| {
+            &sum + &(&self.exact[j] * &Dyadic::from(v[j]))
+        })
+    }
+
+    /// Whether it is the same set of points, exactly.
+    pub(crate) fn is_the_same(&self, other: &Self) -> bool {
+        let (a, b) = (&self.exact, &other.exact);
+        let k = (0..3).find(|&k| a[k].sign().is_ne()).unwrap_or(0);
+        a[k].sign() == b[k].sign()
+            && (0..4).all(|i| (&(&a[i] * &b[k]) - &(&b[i] * &a[k])).sign().is_eq())
+    }
+
+    /// The square of the normal's length, exactly.
+    pub(crate) fn square(&self) -> Dyadic {
+        self.product(self)
+    }
+
+    /// The inner product of two normals, exactly.
+    pub(crate) fn product(&self, other: &Self) -> Dyadic {
+        (0..3).fold(Dyadic::from(0.0), |sum, j| {
+            &sum + &(&self.exact[j] * &other.exact[j])
+        })
+    }
+}
+
+/// `n . p + d`, in the order of operations that the bound is for; of several half spaces, or of
+/// one.
+#[inline(always)]
+pub(crate) fn value<F: Lanes>([a, b, c, d]: [F; 4], p: Vec3<f64>) -> F {
+    (a * a.splat(p.x) + b * a.splat(p.y)) + (c * a.splat(p.z) + d)
+}
+
+/// How far a value may be off at a size.
+#[inline(always)]
+pub(crate) fn threshold(size: f64, constant: f64) -> f64 {
+    ROUNDING * size + constant
+}
+
+/// The sum of the coordinates' magnitudes.
+#[inline(always)]
+pub(crate) fn size(p: Vec3<f64>) -> f64 {
+    p.x.abs() + p.y.abs() + p.z.abs()
+}

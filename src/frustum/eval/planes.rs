@@ -1,0 +1,155 @@
+//! A frustum's half spaces in the scalar type of a batch.
+//!
+//! The numbers of [`crate::frustum::eval::half_space`], all scaled so that the largest
+//! of a normal's is between 1/2 and 1, rounded to `T`. So one threshold does for all:
+//! with u the unit roundoff of `T`, a value is off by less than
+//! `8 u S + 8 u |d| + FLOOR` (see `batch/boxes.rs` and `batch/spheres.rs`).
+
+use crate::frustum::eval::half_space::HalfSpace;
+use crate::math::{PerReal, Real, Vec3};
+
+/// A half space `normal . p + offset >= 0`.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Plane<T> {
+    pub(crate) normal: [T; 3],
+    /// Which of a box's six numbers, the least coordinates and the greatest, are those of the
+    /// corner farthest along the normal; and of the opposite one.
+    pub(crate) corners: [[usize; 3]; 2],
+    pub(crate) offset: T,
+    /// The normal's length.
+    pub(crate) length: T,
+}
+
+/// The half spaces of a frustum.
+#[derive(Clone, Debug)]
+pub(crate) struct FacePlanes<T> {
+    /// The near face, and the far one's offset: its normal is the negative of the near
+    /// one's. Infinite where there is no far face.
+    pub(crate) near: Plane<T>,
+    pub(crate) far: T,
+    pub(crate) sides: [Plane<T>; 4],
+    /// 8 u, what rounding errors are at most in proportion to sizes.
+    pub(crate) factor: T,
+    /// And what they are beside that; infinite where nothing is certain.
+    pub(crate) constant: T,
+}
+
+/// By whether the normal points towards larger coordinates.
+fn corners(up: [bool; 3]) -> [[usize; 3]; 2] {
+    let farthest = [0, 1, 2].map(|axis| axis + 3 * usize::from(up[axis]));
+    [farthest, farthest.map(|k| (k + 3) % 6)]
+}
+
+/// What underflow does to a value stays far below the first, and sums do not overflow
+/// before sizes do while an offset stays below the second.
+const fn range<T: Real>() -> (f64, f64) {
+    if T::DIGITS == 24 {
+        // 2^-100, 2^90
+        (7.888609052210118e-31, 1.2379400392853803e27)
+    } else {
+        // 2^-900, 2^900
+        (1.183052186166774e-271, 8.452712498170644e270)
+    }
+}
+
+impl<T: Real> FacePlanes<T> {
+    /// How far values may be off at a size; infinite for a block with something wrong.
+    #[inline(always)]
+    pub(crate) fn threshold(&self, size: T, is_valid: bool) -> T {
+        let more = if is_valid { 0.0 } else { f64::INFINITY };
+        self.factor * size + (self.constant + T::from_f64(more))
+    }
+
+    /// The normal and the offset of a face, by number.
+    #[inline(always)]
+    pub(crate) fn face(&self, face: usize) -> ([T; 3], T) {
+        let Plane { normal, offset, .. } = self.near;
+        match face {
+            0 => (normal, offset),
+            1 => (normal.map(|n| -n), self.far),
+            _ => {
+                let side = &self.sides[(face - 2) & 3];
+                (side.normal, side.offset)
+            }
+        }
+    }
+
+    /// From the faces in the order of [`crate::Frustum::faces`]: five or six.
+    pub(crate) fn new(faces: &[HalfSpace]) -> Self {
+        Self::with_offsets(faces, |h| h.rounded()[3])
+    }
+
+    /// For places relative to an anchor.
+    pub(crate) fn relative_to(faces: &[HalfSpace], anchor: Vec3<f64>) -> Self {
+        Self::with_offsets(faces, |h| h.value_rounded(anchor))
+    }
+
+    fn with_offsets(faces: &[HalfSpace], offset: impl Fn(&HalfSpace) -> f64) -> Self {
+        let row = |h: &HalfSpace| {
+            let [a, b, c, _] = h.rounded().map(T::from_f64);
+            let d = T::from_f64(offset(h));
+            Plane {
+                normal: [a, b, c],
+                corners: corners([0, 1, 2].map(|axis| h.points_up(axis))),
+                offset: d,
+                length: T::from_f64(h.length()),
+            }
+        };
+        let nothing = Plane {
+            normal: [T::ZERO; 3],
+            corners: corners([false; 3]),
+            offset: T::ZERO,
+            length: T::ZERO,
+        };
+        let offsets = faces.iter().map(|h| offset(h).abs());
+        let largest = offsets.fold(0.0, f64::max);
+        let u = T::UNIT_ROUNDOFF;
+        let (floor, most) = range::<T>();
+        let (ends, sides) = faces.split_at(faces.len().saturating_sub(4));
+        let mut rows = [nothing; 4];
+        rows.iter_mut().zip(sides).for_each(|(r, h)| *r = row(h));
+        let constant = if largest < most && sides.len() == 4 {
+            // Rounded up: the sum of two positive numbers is not less than half of it.
+            T::from_f64(8.0 * u * largest + floor).next_up()
+        } else {
+            T::from_f64(f64::INFINITY)
+        };
+        Self {
+            near: ends.first().map_or(nothing, row),
+            far: ends
+                .get(1)
+                .map_or(T::from_f64(f64::INFINITY), |h| row(h).offset),
+            sides: rows,
+            factor: T::from_f64(8.0 * u),
+            constant,
+        }
+    }
+}
+
+/// FacePlanes of both scalar types.
+#[derive(Clone, Debug)]
+pub(crate) struct FacePlanesPair {
+    single: FacePlanes<f32>,
+    double: FacePlanes<f64>,
+}
+
+impl FacePlanesPair {
+    pub(crate) fn new(faces: &[HalfSpace]) -> Self {
+        Self {
+            single: FacePlanes::new(faces),
+            double: FacePlanes::new(faces),
+        }
+    }
+}
+
+impl PerReal for FacePlanesPair {
+    type Of<T: Real> = FacePlanes<T>;
+
+    fn single(&self) -> &FacePlanes<f32> {
+        &self.single
+    }
+
+    fn double(&self) -> &FacePlanes<f64> {
+        &self.double
+    }
+}

@@ -1,0 +1,344 @@
+//! Boundary values in double-double: the filter's values (see
+//! [`super::filter`]) with a relative error small enough to compute with.
+//!
+//! Which face it is costs a look-up and no branch, and several faces, of one
+//! point or of several, are evaluated side by side. The rounded value goes
+//! straight through; what each of its operations lost is computed beside it,
+//! exactly for sums and products, and added at the end.
+//!
+//! # The error bound
+//! In u^2, with X = A_x S, Z = A_z S (see [`super::filter`]) and c, c_low the
+//! rounded difference and its rest of a point and the pose's origin. Only what
+//! is added beside the rounded value is rounded; each such sum or product is
+//! u times something, so its rounding is u^2 times that.
+//!
+//! *The identity pose*, where frame coordinates are the point's: one formula
+//! for all faces, `c - at - m (z - z_near)`, with W = Z + |z_near|:
+//! ```text
+//! depth        slope times w_rest 1, rest times w 1, sums 2 + 3; the slope 15     22 |m| W
+//! value        more - low, + rest                        1 + 2 X, |n|; 3 + 5 |m| W
+//! ```
+//! *Any other pose*: each face is a plane in the world, `N . (p - o) + d`, with
+//! N = a_x - m a_z and d = m z_near - at prepared to 106 bits. With Y = sum
+//! |N_j c_j| <= X + |m| Z and K = |m z_near| + |at|:
+//! ```text
+//! N            the slope 15, times a_z 3, minus a_x 3                3 X, 21 |m| Z
+//! products     N c_low 1, N_low c 1, both 2, with the rest 3, N_low c_low 1   8 Y
+//! rests        of products 3 + 3, of sums 2, with d_low 1, all together 3 + 6  18 Y, 6 K
+//! d            the slope 15, times z_near 3, minus at 3         21 |m z_near|, 3 |at|
+//! ```
+//! Both are below 47.2 u^2 scale (`proofs/precise.gappa`); what relies on it counts with 60.
+
+use crate::exact::double_double::Dd;
+use crate::exact::float::{Lanes, Single, Width, split, two_diff, two_prod_split, two_sum};
+use crate::frustum::Shape;
+use crate::math::{Pose, Vec3};
+use wide::f64x2;
+
+/// A face over the coordinates of the identity pose.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Plane {
+    /// Which coordinate.
+    axis: usize,
+    at: f64,
+    /// The slope by z, with its upper and lower half, and what rounding it lost.
+    slope: f64,
+    halves: (f64, f64),
+    rest: f64,
+    /// All bits set where a point on the face has exactly `at` for its `z`:
+    /// near and far of the identity pose.
+    level: f64,
+}
+
+/// A face as a plane over offsets from the pose's origin.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct WorldRow {
+    normal: [f64; 3],
+    halves: [(f64, f64); 3],
+    rests: [f64; 3],
+    offset: f64,
+    offset_rest: f64,
+}
+
+impl WorldRow {
+    /// From the two axes of a face in the frame, where it is, and its slope.
+    fn new(pose: &Pose, row: &Plane, near: f64) -> Self {
+        let slope = Dd::new(row.slope, row.rest);
+        let (across, along) = (pose.axes[row.axis], pose.axes[2]);
+        let normal = [0, 1, 2].map(|j| {
+            let part = slope.mul_f64(along[j]).neg();
+            Dd::new(across[j], 0.0).add(part)
+        });
+        let offset = slope.mul_f64(near).add(Dd::new(-row.at, 0.0));
+        WorldRow {
+            normal: normal.map(|n| n.hi),
+            halves: normal.map(|n| split(n.hi)),
+            rests: normal.map(|n| n.lo),
+            offset: offset.hi,
+            offset_rest: offset.lo,
+        }
+    }
+}
+
+impl WorldRow {
+    /// What coordinate j contributes, the same face in each lane.
+    #[inline(always)]
+    fn term<F: Lanes>(&self, j: usize, p: F, origin: Vec3<f64>) -> (F, F) {
+        let halves = (p.splat(self.halves[j].0), p.splat(self.halves[j].1));
+        term(
+            p,
+            origin[j],
+            p.splat(self.normal[j]),
+            halves,
+            p.splat(self.rests[j]),
+        )
+    }
+}
+
+/// The six faces, in the order of [`super::Face::ALL`].
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Precise {
+    /// Two more than there are, so that no bound is checked.
+    rows: [Plane; 8],
+    near: f64,
+    /// What turns `c - at - m (z - z_near)` into the boundary value.
+    signs: [f64; 6],
+    /// Origin and planes of a pose that is not the identity.
+    world: Option<(Vec3<f64>, [WorldRow; 8])>,
+}
+
+impl Precise {
+    /// From the four sides' slopes by depth.
+    pub(crate) fn new(pose: &Pose, shape: &Shape, slopes: &[Dd; 4]) -> Self {
+        let sigma = shape.direction().sign();
+        let near = shape.near();
+        let bounds = near.rect.to_array();
+        let row = |axis, at, slope: Dd| Plane {
+            axis,
+            at,
+            slope: sigma * slope.hi,
+            halves: split(sigma * slope.hi),
+            rest: sigma * slope.lo,
+            level: f64::from_bits(if axis == 2 && pose.is_identity() {
+                u64::MAX
+            } else {
+                0
+            }),
+        };
+        let side = |i: usize| row(i / 2, bounds[i], slopes[i]);
+        let level = Dd::new(0.0, 0.0);
+        let far = shape.far().map_or(near.z, |far| far.z);
+        let rows = [
+            row(2, near.z + 0.0, level),
+            row(2, far + 0.0, level),
+            side(0),
+            side(1),
+            side(2),
+            side(3),
+            side(3),
+            side(3),
+        ];
+        let world = || (pose.origin, rows.map(|r| WorldRow::new(pose, &r, near.z)));
+        Precise {
+            rows,
+            near: near.z,
+            signs: [sigma, -sigma, 1.0, -1.0, 1.0, -1.0],
+            world: (!pose.is_identity()).then(world),
+        }
+    }
+
+    /// Values of faces (by number) at points, side by side, up to their signs:
+    /// each as a rounded value and a small rest whose exact sum is within 60 u^2
+    /// scale of the truth.
+    #[inline(always)]
+    fn values<W: Width<N>, const N: usize>(
+        &self,
+        width: W,
+        faces: [usize; N],
+        points: [Vec3<f64>; N],
+    ) -> (W::Lanes, W::Lanes) {
+        match &self.world {
+            None => self.values_in_frame(width, faces, points),
+            Some((origin, rows)) => {
+                values_in_world(width, *origin, faces.map(|f| &rows[f & 7]), points)
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn values_in_frame<W: Width<N>, const N: usize>(
+        &self,
+        width: W,
+        faces: [usize; N],
+        points: [Vec3<f64>; N],
+    ) -> (W::Lanes, W::Lanes) {
+        let rows = faces.map(|f| &self.rows[f & 7]);
+        let coordinate = |j: usize| {
+            let p = points[j];
+            [p.x, p.y, p.z, 0.0][rows[j].axis & 3]
+        };
+        let c = width.lanes(std::array::from_fn(coordinate));
+        let z = width.lanes(points.map(|p| p.z));
+        let slope = width.lanes(rows.map(|r| r.slope));
+        let upper = width.lanes(rows.map(|r| r.halves.0));
+        let lower = width.lanes(rows.map(|r| r.halves.1));
+        let lanes = RowLanes {
+            at: width.lanes(rows.map(|r| r.at)),
+            slope,
+            halves: (upper, lower),
+            rest: width.lanes(rows.map(|r| r.rest)),
+        };
+        row_value(&lanes, self.near, c, z)
+    }
+
+    /// One face's magnitudes at points whose coordinates come axis by axis: the same bits
+    /// as [`Precise::magnitudes`].
+    #[inline(always)]
+    pub(crate) fn magnitude<F: Lanes>(&self, face: usize, p: impl Fn(usize) -> F) -> F {
+        let (g, rest) = match &self.world {
+            None => {
+                let row = &self.rows[face & 7];
+                let z = p(2);
+                let c = if row.axis == 2 { z } else { p(row.axis) };
+                let splat = |v: f64| z.splat(v);
+                row_value(
+                    &RowLanes {
+                        at: splat(row.at),
+                        slope: splat(row.slope),
+                        halves: (splat(row.halves.0), splat(row.halves.1)),
+                        rest: splat(row.rest),
+                    },
+                    self.near,
+                    c,
+                    z,
+                )
+            }
+            Some((origin, rows)) => {
+                let row = &rows[face & 7];
+                let x = row.term(0, p(0), *origin);
+                let y = row.term(1, p(1), *origin);
+                let z = row.term(2, p(2), *origin);
+                sum([x, y, z], z.0.splat(row.offset), z.0.splat(row.offset_rest))
+            }
+        };
+        (g + rest).abs()
+    }
+
+    /// One face's value with its sign, the high part rounded.
+    pub(crate) fn value(&self, face: usize, p: Vec3<f64>) -> Dd {
+        let (g, rest) = self.values(Single, [face], [p]);
+        let value = Dd::new(g, rest).normal();
+        if self.signs[face] < 0.0 {
+            value.neg()
+        } else {
+            value
+        }
+    }
+
+    /// Where points on these faces have an exact `z`, and which, in the pose in
+    /// which there are such faces.
+    #[inline(always)]
+    pub(crate) fn levels<const N: usize>(
+        &self,
+        faces: [usize; N],
+    ) -> Option<([bool; N], [f64; N])> {
+        let rows = faces.map(|f| &self.rows[f & 7]);
+        let levels = (rows.map(|r| r.level != 0.0), rows.map(|r| r.at));
+        self.world.is_none().then_some(levels)
+    }
+
+    /// `z`, but what near or far says of it for points that are on them.
+    #[inline(always)]
+    pub(crate) fn exact_depth(&self, faces: [usize; 2], z: f64x2) -> f64x2 {
+        let [a, b] = faces.map(|f| &self.rows[f & 7]);
+        f64x2::new([a.level, b.level]).bitselect(f64x2::new([a.at, b.at]), z)
+    }
+
+    /// The values' magnitudes, rounded: relative error below u (1 + 1/2) where
+    /// the filter is certain.
+    #[inline(always)]
+    pub(crate) fn magnitudes<W: Width<N>, const N: usize>(
+        &self,
+        width: W,
+        faces: [usize; N],
+        points: [Vec3<f64>; N],
+    ) -> W::Lanes {
+        let (g, rest) = self.values(width, faces, points);
+        (g + rest).abs()
+    }
+}
+
+/// A face over the coordinates of the identity pose, in each lane.
+struct RowLanes<F> {
+    at: F,
+    slope: F,
+    halves: (F, F),
+    rest: F,
+}
+
+#[inline(always)]
+fn row_value<F: Lanes>(row: &RowLanes<F>, near: f64, c: F, z: F) -> (F, F) {
+    let (w, w_rest) = two_diff(z, z.splat(near));
+    let (product, low) = two_prod_split(row.slope, row.halves, w);
+    let low = low + (row.slope * w_rest + row.rest * w);
+    let (across, more) = two_diff(c, row.at);
+    let (g, rest) = two_diff(across, product);
+    (g, rest + (more - low))
+}
+
+#[inline(always)]
+fn values_in_world<W: Width<N>, const N: usize>(
+    width: W,
+    origin: Vec3<f64>,
+    rows: [&WorldRow; N],
+    points: [Vec3<f64>; N],
+) -> (W::Lanes, W::Lanes) {
+    let x = lanes_term(width, 0, rows, points, origin);
+    let y = lanes_term(width, 1, rows, points, origin);
+    let z = lanes_term(width, 2, rows, points, origin);
+    sum(
+        [x, y, z],
+        width.lanes(rows.map(|r| r.offset)),
+        width.lanes(rows.map(|r| r.offset_rest)),
+    )
+}
+
+/// What coordinate j contributes, a face a lane.
+#[inline(always)]
+fn lanes_term<W: Width<N>, const N: usize>(
+    width: W,
+    j: usize,
+    rows: [&WorldRow; N],
+    points: [Vec3<f64>; N],
+    origin: Vec3<f64>,
+) -> (W::Lanes, W::Lanes) {
+    let normal = width.lanes(rows.map(|r| r.normal[j]));
+    let upper = width.lanes(rows.map(|r| r.halves[j].0));
+    let lower = width.lanes(rows.map(|r| r.halves[j].1));
+    let rest = width.lanes(rows.map(|r| r.rests[j]));
+    let p = width.lanes(points.map(|p| p[j]));
+    term(p, origin[j], normal, (upper, lower), rest)
+}
+
+/// What one coordinate contributes: its product with the normal's, and the rest.
+#[inline(always)]
+fn term<F: Lanes>(p: F, origin: f64, normal: F, halves: (F, F), rest: F) -> (F, F) {
+    let (c, c_low) = two_diff(p, p.splat(origin));
+    let (product, lost) = two_prod_split(normal, halves, c);
+    let low = normal * c_low + rest * c;
+    (product, lost + low)
+}
+
+/// The three contributions and the offset.
+#[inline(always)]
+fn sum<F: Lanes>(
+    [(x, x_rest), (y, y_rest), (z, z_rest)]: [(F, F); 3],
+    offset: F,
+    low: F,
+) -> (F, F) {
+    let (xy, e) = two_sum(x, y);
+    let (xyz, f) = two_sum(xy, z);
+    let (g, h) = two_sum(xyz, offset);
+    let sums = (e + f) + (h + low);
+    (g, ((x_rest + y_rest) + z_rest) + sums)
+}

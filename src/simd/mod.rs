@@ -1,0 +1,57 @@
+//! Vector registers: the width, chosen at run time once for a slice; a half space in each lane;
+//! lists of indices from bits.
+
+pub(crate) mod compaction;
+pub(crate) mod plane_lanes;
+
+/// Runs what is generic over the vector width. On x86 with one of two, AVX2's and SSE2's, or of
+/// three where there is something to run with registers of AVX-512; what SSE4.2 adds is not used.
+#[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+macro_rules! at_width {
+    ($level:expr, $simd:ident => $run:expr, $wide:ident => $run_wide:expr) => {
+        if let Some($wide) = $level.as_avx512() {
+            $wide.vectorize(
+                #[inline(always)]
+                || $run_wide,
+            )
+        } else {
+            at_width!($level, $simd => $run)
+        }
+    };
+    ($level:expr, $simd:ident => $run:expr) => {
+        if let Some($simd) = $level.as_avx2() {
+            $simd.vectorize(
+                #[inline(always)]
+                || $run,
+            )
+        } else {
+            let $simd = $level.as_sse2().expect("the crate needs SSE2");
+            $run
+        }
+    };
+}
+#[cfg(not(any(target_arch = "x86", target_arch = "x86_64")))]
+macro_rules! at_width {
+    ($level:expr, $simd:ident => $run:expr, $wide:ident => $run_wide:expr) => {
+        at_width!($level, $simd => $run)
+    };
+    ($level:expr, $simd:ident => $run:expr) => {
+        fearless_simd::dispatch!($level, $simd => $run)
+    };
+}
+
+pub(crate) use at_width;
+
+/// Every width of this machine that anything is compiled for, the widest first.
+#[cfg(test)]
+pub(crate) fn levels() -> Vec<fearless_simd::Level> {
+    use fearless_simd::Level;
+    let mut all = vec![Level::new()];
+    if cfg!(miri) {
+        return all;
+    }
+    #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+    all.extend(Level::new().as_avx2().map(Level::Avx2));
+    all.push(Level::baseline());
+    all
+}
