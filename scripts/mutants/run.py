@@ -2,8 +2,10 @@
 """Mutation test of the sign tests: every mutant in mutants.txt must fail a test.
 
     scripts/mutants/run.py              all of them
-    scripts/mutants/run.py 3 17-20      some
+    scripts/mutants/run.py 3 17-20      some, by their numbers
+    scripts/mutants/run.py src/cull     those of files whose path begins so
     scripts/mutants/run.py --list       their numbers
+    scripts/mutants/run.py --check      whether each still has its one place; builds nothing
 
 All mutants go into one copy of the sources (target/mutants/tree), each behind a
 check of the environment variable MUTANT, so that there is one build, and a
@@ -29,7 +31,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 TREE = ROOT / "target/mutants/tree"
-COPIED = ["Cargo.toml", "Cargo.lock", "benches", "docs", "src", "tests"]
+COPIED = ["Cargo.toml", "Cargo.lock", "README.md", "benches", "crates", "docs", "src", "tests"]
 # Quickest to fail first. The library's tests without those of tables.
 TESTS = [
     ("differential", []),
@@ -43,9 +45,10 @@ TESTS = [
     ("slices", []),
 ]
 # Volumes and batches have their own.
-VOLUME_TESTS = [("volumes", []), ("frusta", ["volume::", "batch::"]), ("regressions", [])]
+VOLUME_TESTS = [("volumes", []), ("frusta", ["cull::"]), ("regressions", [])]
 # Slices are compared with single calls first.
-SLICE_TESTS = [("frusta", ["clip::slice::"]), *TESTS]
+SLICE_TESTS = [("frusta", ["clip::many::"]), *TESTS]
+INTERVAL_TESTS = [("frusta", ["clip::many::intervals::", "cull::"]), ("volumes", [])]
 SECONDS = 300
 
 SWITCH = """
@@ -140,7 +143,7 @@ def build():
     """The test binaries, by name."""
     names = {n for n, _ in TESTS + VOLUME_TESTS if n != "frusta"}
     targets = ["--lib"] + [a for n in names for a in ("--test", n)]
-    command = ["cargo", "test", "--features", "report", "--no-run"]
+    command = ["cargo", "test", "--package", "frusta", "--package", "frusta-lab", "--no-run"]
     command += ["--message-format", "json-render-diagnostics", *targets]
     env = os.environ | {"CARGO_TARGET_DIR": str(ROOT / "target/mutants/build")}
     done = subprocess.run(command, cwd=TREE, env=env, stdout=subprocess.PIPE, text=True)
@@ -179,9 +182,11 @@ def killer(binaries, number, tests=TESTS):
 
 
 def tests_of(file):
-    if file.startswith("src/clip/slice/"):
+    if file.startswith("src/clip/many/intervals/"):
+        return INTERVAL_TESTS
+    if file.startswith("src/clip/many/"):
         return SLICE_TESTS
-    if file.startswith(("src/volume/", "src/batch/")):
+    if file.startswith(("src/cull/", "src/frustum/eval/half_space")):
         return VOLUME_TESTS
     return TESTS
 
@@ -192,8 +197,15 @@ def main():
     if arguments == ["--list"]:
         print(*mutants, sep="\n")
         return
-    chosen = set()
+    if arguments == ["--check"]:
+        for m in mutants:
+            m.span((ROOT / m.file).read_text())
+        print(f"{len(mutants)} mutants, each with its one place")
+        return
+    chosen = {m.number for m in mutants for a in arguments if m.file.startswith(a)}
     for a in arguments:
+        if a.startswith("src/"):
+            continue
         first, _, last = a.partition("-")
         chosen |= set(range(int(first), int(last or first) + 1))
     write_tree(mutants)
