@@ -1,28 +1,48 @@
-//! Exactly right and fast clipping against view frusta.
+//! Exactly right and fast clipping and culling against view frusta.
 //!
-//! | module | what is in it |
+//! Every decision is the sign of an exact value: which edges a frustum cuts and by which faces, which
+//! boxes and spheres lie in view. That holds for every finite `f32` and `f64` input, however large,
+//! small or degenerate. Coordinates of points follow from the decisions, to an accuracy that is an
+//! argument. A frustum is a closed set: touching counts as meeting it, everywhere.
+//!
+//! | job | start with |
 //! |---|---|
-//! | [`math`] | points, segments, rectangles, poses |
-//! | [`frustum`] | [`Frustum`] and its constructors: [`Camera`], [`ViewProjection`], [`SixPoints`] |
-//! | [`clip`] | [`Frustum::clip_segment`], [`Frustum::clip_segments`], and the algorithms behind [`SegmentClipper`] |
-//! | [`cull`] | boxes, oriented boxes, spheres: outside, crossing or inside a frustum |
-//! | [`guarantees`] | a page: what is guaranteed, and how it is known |
-//! | [`samples`] | the 78 singular samples, and seeded families of hard cases |
-//! | `oracle` | (feature `oracle`) the truth by rational arithmetic |
-//! | `report` | (feature `report`) measuring and verifying |
+//! | cull boxes and spheres | [`Culler`]: one by one, many at once, for trees; [`cull`] |
+//! | clip edges | [`Frustum::clip_segment`], [`Frustum::clip_segments`]; [`clip`] |
+//! | make frusta | [`Camera`], [`ViewProjection`] (matrices of every convention), [`Frustum::new`], [`SixPoints`]; [`frustum`] |
 //!
-//! # A first example
+//! # Cull
+//! ```
+//! use frusta::{Aabb, Camera, Containment, Culler, Projection, Sphere};
+//!
+//! let camera = Camera {
+//!     eye: [0.0, 0.0, 5.0].into(),
+//!     target: [0.0, 0.0, 0.0].into(),
+//!     up: [0.0, 1.0, 0.0].into(),
+//!     projection: Projection::Perspective { fovy: 1.0, aspect: 1.5 },
+//!     near: 0.1,
+//!     far: 100.0,
+//! };
+//! let culler = Culler::new(&camera.frustum()?);
+//! assert_eq!(culler.classify(Sphere::new([0.0_f32; 3], 1.0))?, Containment::Inside);
+//!
+//! let in_view = Aabb::new([-1.0_f32; 3], [1.0; 3]);
+//! let behind = Aabb::new([-1.0, -1.0, 9.0], [1.0, 1.0, 10.0]);
+//! let mut visible = Vec::new();
+//! culler.over(&[in_view, behind]).visible(&mut visible)?;
+//! assert_eq!(visible, [0]);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! # Clip
 //! ```
 //! use frusta::{Class, EndRect, Face, Frustum, Pose, Segment, Shape};
 //!
-//! // From a unit square at z = 1 to a square three times as large at z = 3.
-//! let frustum = Frustum::new(
-//!     Pose::IDENTITY,
-//!     Shape::Finite {
-//!         near: EndRect::new(1.0, -1.0, 1.0, -1.0, 1.0),
-//!         far: EndRect::new(3.0, -3.0, 3.0, -3.0, 3.0),
-//!     },
-//! )?;
+//! // From a square at z = 1 to a square three times as large at z = 3.
+//! let near = EndRect::new(1.0, -1.0, 1.0, -1.0, 1.0);
+//! let far = EndRect::new(3.0, -3.0, 3.0, -3.0, 3.0);
+//! let frustum = Frustum::new(Pose::IDENTITY, Shape::Finite { near, far })?;
+//!
 //! let clip = frustum.clip_segment(&Segment::new([0.0, 0.0, 2.0], [4.0, 0.0, 2.0]))?;
 //! assert_eq!(clip.class, Class::Cross);
 //! let exit = clip.part.unwrap().exit;
@@ -35,22 +55,62 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
+//! # Make frusta
+//! ```
+//! use frusta::{ClipSpace, MatrixLayout, ViewProjection};
+//!
+//! // The columns of a perspective matrix, as glam has them: near 1, far 9, depth from 0 to 1.
+//! let columns = [
+//!     1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, -1.125, -1.0, 0.0, 0.0, -1.125, 0.0,
+//! ];
+//! let matrix = ViewProjection::from_flat(columns, MatrixLayout::ColumnMajorColumnVectors);
+//! let found = matrix.frustum(ClipSpace::ZERO_TO_ONE)?;
+//! assert!(found.frustum.contains([0.0, 5.0, -5.0].into())?);
+//! assert_eq!(found.deviation.sides, 0.0);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! # Modules
+//! | module | contents |
+//! |---|---|
+//! | [`math`] | points, segments, rectangles, poses |
+//! | [`frustum`] | [`Frustum`] and its constructors |
+//! | [`clip`] | clipping of segments: one, slices, intervals; six algorithms behind [`SegmentClipper`] |
+//! | [`cull`] | boxes, oriented boxes and spheres: outside, crossing or inside |
+//! | [`guarantees`] | a page: the guarantees, and how they are known to hold |
+//! | `samples` | (feature) the 78 singular samples, and seeded families of hard cases |
+//! | `oracle` | (feature) the truth by rational arithmetic |
+//!
+//! # Features
+//! None is on by default.
+//!
+//! | feature | adds |
+//! |---|---|
+//! | `parallel` | `.parallel()` on queries: rayon's threads, the same bits |
+//! | `glam`, `nalgebra`, `mint` | conversions of points and matrices |
+//! | `serde`, `approx` | their traits |
+//! | `samples`, `oracle` | the modules above, for tests of clippers and cullers |
+//!
 //! # Guarantees
 //! For every finite segment, exact arithmetic (the default) gives:
 //!
 //! - **G1** the exact [`Class`] and face sets;
 //! - **G2** unclipped ends bit for bit; in the identity pose a hit on near or far has that
 //!   face's `z`, rounded to the segment's type (`Inward`: if a point with it is inside);
-//! - **G3** points to the [`Accuracy`] asked for;
-//! - **G4** with [`Accuracy::Inward`], points that are in the frustum, where any
-//!   representable point near is (`PartEnd::inward` tells);
+//! - **G3** points to the requested [`Accuracy`];
+//! - **G4** with [`Accuracy::Inward`], points in the frustum, where any
+//!   representable point near is (see `PartEnd::inward`);
 //! - **G5** the swapped result for swapped ends, bit for bit;
 //! - **G6** `Inward` results, `inward` at both ends, that clip to themselves;
 //! - **G8** the same bits with every algorithm, on every platform and number of
 //!   threads, one by one or in slices, with SIMD or without.
 //!
 //! (**G7**, how far an `Inward` end could still move outwards, is measured, not
-//! promised.) A coordinate that is not finite is an error, never a panic.
+//! promised.) For volumes: exactly the class by face planes, or with
+//! [`Culler::classify_exact`] the exact class. A coordinate that is not finite is an error, never a
+//! panic. [`guarantees`] has the whole page.
+
+#![cfg_attr(docsrs, feature(doc_cfg))]
 
 pub mod clip;
 pub mod cull;
