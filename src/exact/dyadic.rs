@@ -26,6 +26,15 @@ impl Dyadic {
         }
     }
 
+    /// The larger of two numbers.
+    pub(crate) fn max(self, other: Self) -> Self {
+        if (&self - &other).sign() == Ordering::Less {
+            other
+        } else {
+            self
+        }
+    }
+
     /// The value times `2^shift`.
     pub(crate) fn shifted(&self, shift: i32) -> Self {
         Self {

@@ -145,21 +145,26 @@ pub struct MatrixFrustum {
     pub deviation: Deviation,
 }
 
-/// By how much the eight vertices of a frustum miss the exact clip volume of
-/// its matrix: from exact residuals, an upper bound for the largest of them.
+/// The largest deviation of a frustum's vertices from the exact clip volume of
+/// its matrix.
+///
+/// Each number is the exact maximum, rounded up to the next `f64`: an upper
+/// bound, and 0 only if there is no deviation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Deviation {
-    /// Of `X / W` and `Y / W` from `+-1`, at the vertices: rounding of the eye.
-    /// Infinite if the eye's rounding is as large as the near distance.
+    /// The deviation of `X / W` and `Y / W` from `+-1`, which rounding of the
+    /// eye causes. Infinite if it moves a near vertex to `W <= 0`.
     pub sides: f64,
-    /// Of the near face, as a fraction of the near distance (orthographic: of
-    /// the depth): rounding, and the tilt of the matrix's near plane.
+    /// The deviation of the near vertices from the matrix's near plane, along
+    /// `W`, as a fraction of the near distance (orthographic: along `Z`, as a
+    /// fraction of the depth). Rounding causes it, and the tilt of that plane.
     pub near: f64,
-    /// Of the far face, as a fraction of the far distance (orthographic: of
-    /// the depth). At 1 and above, rounding of the matrix has left no far plane
-    /// to speak of. For an infinite frustum: the near distance over the closest
-    /// distance of the matrix's far plane, a plane that only rounding tilted
-    /// into view; 0 if there is none.
+    /// The same for the far vertices and the far plane, as a fraction of the far
+    /// distance (orthographic: of the depth). At 1 and above, rounding of the
+    /// matrix's entries has left no usable far plane. For an infinite frustum:
+    /// the near distance divided by the least `W` at which the matrix's far
+    /// plane, tilted by rounding alone, enters the clip volume; 0 if it does
+    /// not.
     pub far: f64,
 }
 
@@ -336,7 +341,7 @@ impl System {
     }
 }
 
-/// The exact value of a row at a point, rounded once.
+/// The exact value of a row at a point.
 fn value(row: Vec3<f64>, constant: f64, p: Vec3<f64>) -> Dyadic {
     &dot(&exact(row), &exact(p)) + &constant.into()
 }
@@ -354,8 +359,11 @@ fn parallel(rows: &Rows, clip: ClipSpace) -> Result<MatrixFrustum, FrustumError>
     };
     let (near, far) = if clip.reversed { (w, low) } else { (low, w) };
     let rect = Rect::centred(w, w);
-    let residual = |row, constant| value(row, constant, origin).to_f64().abs();
-    let depth = residual(rows.z, z) / (w - low);
+    // A vertex is off by the clip coordinates of the rounded origin, which would be 0.
+    let residual = |row, constant| value(row, constant, origin).abs();
+    let sides = residual(rows.x, x).max(residual(rows.y, y));
+    let w = Dyadic::from(w);
+    let depth = residual(rows.z, z).ratio_up(&(&w - &low.into()));
     let shape = Shape::Finite {
         near: EndRect { z: near, rect },
         far: EndRect { z: far, rect },
@@ -363,28 +371,28 @@ fn parallel(rows: &Rows, clip: ClipSpace) -> Result<MatrixFrustum, FrustumError>
     Ok(MatrixFrustum {
         frustum: Frustum::new(Pose::new(origin, axes), shape)?,
         deviation: Deviation {
-            sides: residual(rows.x, x).max(residual(rows.y, y)) / w,
+            sides: sides.ratio_up(&w),
             near: depth,
             far: depth,
         },
     })
 }
 
-/// A bound on depth, as a function of `W` along the middle of the view:
-/// `slope * W + constant >= 0` (both times the determinant).
+/// A bound on depth, `z Z + w W >= 0`.
+///
+/// Along the middle of the view, where `X = Y = 0`, it is a function of `W`
+/// alone: `slope * W + constant >= 0` (both times the determinant).
 struct DepthBound {
+    z: f64,
+    w: f64,
     slope: Dyadic,
     constant: Dyadic,
-    /// The bound of `Z / W` it comes from.
-    depth: f64,
 }
 
 /// `Z` in terms of `X, Y, W`, all times the determinant, which is positive.
 struct Depth {
     /// `|c| + |d|`: the tilt.
     tilt: Dyadic,
-    /// `b`.
-    at_eye: Dyadic,
     determinant: Dyadic,
     near: DepthBound,
     far: DepthBound,
@@ -401,24 +409,21 @@ impl Depth {
             DepthRange::ZeroToOne => 0.0,
             DepthRange::MinusOneToOne => -1.0,
         };
-        let above = DepthBound {
-            slope: &a - &(&determinant * &low.into()),
-            constant: at_eye.clone(),
-            depth: low,
+        let bound = |z: f64, w: f64| DepthBound {
+            z,
+            w,
+            slope: &(&a * &z.into()) + &(&determinant * &w.into()),
+            constant: &at_eye * &z.into(),
         };
-        let below = DepthBound {
-            slope: &determinant - &a,
-            constant: -&at_eye,
-            depth: 1.0,
-        };
+        let above = bound(1.0, 0.0 - low);
+        let below = bound(-1.0, 1.0);
         let (near, far) = if clip.reversed {
             (below, above)
         } else {
             (above, below)
         };
         Self {
-            tilt: &absolute(c) + &absolute(d),
-            at_eye,
+            tilt: &c.abs() + &d.abs(),
             determinant,
             near,
             far,
@@ -475,30 +480,28 @@ impl Depth {
         Ok(Some(distance))
     }
 
-    /// How far a bound's plane is off at the corners of the rectangle at
-    /// `distance`, relative to it.
+    /// The distance along `W` between a bound's plane and the vertices at
+    /// `distance`, as a fraction of it, rounded up. `z` and `w` are the clip
+    /// coordinates of the frustum's origin.
     fn displacement(&self, bound: &DepthBound, distance: f64, z: &Dyadic, w: &Dyadic) -> f64 {
-        // The tilt, the eye's rounding, the distance's rounding.
-        let tilt = self.tilt.ratio(&bound.slope).abs();
-        let shift = &(z - &(w * &bound.depth.into())) * &self.determinant;
-        let shift = (&shift - &self.at_eye).ratio(&bound.slope).abs();
-        tilt + shift / distance + f64::EPSILON
+        // The vertices are at D (+-1, +-1, 1) in the frame, so the bound's value there is
+        // +-c D +- d D + slope D + (its value at the origin). It changes by `slope` along W.
+        let distance = Dyadic::from(distance);
+        let at_origin = &(z * &bound.z.into()) + &(w * &bound.w.into());
+        let middle = &(&bound.slope * &distance) + &(&at_origin * &self.determinant);
+        let largest = &(&self.tilt * &distance) + &middle.abs();
+        largest.ratio_up(&(&bound.slope.clone().abs() * &distance))
     }
 
-    /// The near distance over that at which a tilted far plane comes into view.
+    /// The near distance divided by the least `W` at which a tilted far plane
+    /// enters the clip volume, rounded up.
     fn stray_far_plane(&self, near: f64) -> f64 {
+        // Along the edges X, Y = +-W the bound is (slope - tilt) W + constant >= 0.
         let excess = &self.tilt - &self.far.slope;
         match excess.order() {
-            Ordering::Greater => near * excess.ratio(&self.far.constant),
+            Ordering::Greater => (&excess * &near.into()).ratio_up(&self.far.constant),
             _ => 0.0,
         }
-    }
-}
-
-fn absolute(x: Dyadic) -> Dyadic {
-    match x.order() {
-        Ordering::Less => -&x,
-        _ => x,
     }
 }
 
@@ -527,18 +530,13 @@ fn perspective(rows: &Rows, clip: ClipSpace, slack: f64) -> Result<MatrixFrustum
         },
     };
 
-    // Where the rounded origin stands in clip space.
-    let x = value(rows.x, x, origin).to_f64().abs();
-    let y = value(rows.y, y, origin).to_f64().abs();
+    // Clip coordinates of the rounded origin, where X, Y and W would be 0.
+    let x = value(rows.x, x, origin).abs();
+    let y = value(rows.y, y, origin).abs();
     let z = value(rows.z, z, origin);
     let w = value(rows.w, w, origin);
-    let off = w.to_f64().abs();
     let deviation = Deviation {
-        sides: if off < near {
-            (x.max(y) + off) / (near - off)
-        } else {
-            f64::INFINITY
-        },
+        sides: sides(x.max(y), &w, near),
         near: depth.displacement(&depth.near, near, &z, &w),
         far: match far {
             Some(far) => depth.displacement(&depth.far, far, &z, &w),
@@ -549,6 +547,18 @@ fn perspective(rows: &Rows, clip: ClipSpace, slack: f64) -> Result<MatrixFrustum
         frustum: Frustum::new(Pose::new(origin, axes), shape)?,
         deviation,
     })
+}
+
+/// [`Deviation::sides`], from the clip coordinates of the rounded origin: the
+/// larger of `|X|` and `|Y|`, and `W`.
+fn sides(across: Dyadic, w: &Dyadic, near: f64) -> f64 {
+    // At a near vertex X is +-near + X_origin and W is near + W_origin, so |X / W -+ 1| is
+    // |X_origin -+ W_origin| / W. At a far vertex W is larger.
+    let at_vertex = w + &near.into();
+    match at_vertex.order() {
+        Ordering::Greater => (&across + &w.clone().abs()).ratio_up(&at_vertex),
+        _ => f64::INFINITY,
+    }
 }
 
 /// Near and far planes are combinations of the rows `Z` and `W`: parallel to

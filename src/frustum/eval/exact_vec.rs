@@ -22,7 +22,9 @@ pub(crate) trait Rounded {
     fn scaled(&self, shift: i32) -> f64;
     /// `self / other`; infinite if `other` is zero.
     fn ratio(&self, other: &Self) -> f64;
-    /// How the number compares with zero.
+    /// `self / other` rounded towards positive infinity, for `other > 0`.
+    fn ratio_up(&self, other: &Self) -> f64;
+    /// The order relative to zero.
     fn order(&self) -> Ordering;
 }
 
@@ -39,6 +41,17 @@ impl Rounded for Dyadic {
         match other.sign() {
             Ordering::Equal => f64::INFINITY,
             _ => self.round_quotient::<f64>(other) + 0.0,
+        }
+    }
+
+    fn ratio_up(&self, other: &Self) -> f64 {
+        let nearest = self.ratio(other);
+        // The nearest number is the wanted one or the one below it; infinity is never below.
+        let is_below = || (&(&Dyadic::from(nearest) * other) - self).sign() == Ordering::Less;
+        if nearest.is_finite() && is_below() {
+            nearest.next_up()
+        } else {
+            nearest
         }
     }
 
@@ -109,6 +122,11 @@ mod tests {
             prop_assert_eq!((&x * &y).to_f64(), a * b);
             if b != 0.0 {
                 prop_assert_eq!(x.ratio(&y), a / b);
+                let (x, y) = (x.clone().abs(), y.clone().abs());
+                let up = x.ratio_up(&y);
+                let is_below = |q: f64| (&(&Dyadic::from(q) * &y) - &x).sign() == Ordering::Less;
+                prop_assert!(up.is_infinite() || !is_below(up), "{a} / {b} is above {up}");
+                prop_assert!(up == 0.0 || is_below(up.next_down()), "{a} / {b} is not next to {up}");
             }
         }
 
@@ -131,6 +149,22 @@ mod tests {
         assert_eq!((&sum - &huge).to_f64(), 5e-324);
         assert_eq!(tiny.order(), Ordering::Greater);
         assert_eq!((&tiny - &tiny).order(), Ordering::Equal);
+    }
+
+    #[test]
+    fn upwards_at_the_ends_of_the_range() {
+        let [zero, tiny, one, three] = [0.0, 5e-324, 1.0, 3.0].map(Dyadic::from);
+        assert_eq!(zero.ratio_up(&three), 0.0);
+        assert_eq!(tiny.ratio_up(&three), 5e-324);
+        assert_eq!((&tiny * &tiny).ratio_up(&one), 5e-324);
+        assert_eq!(Dyadic::from(1e-323).ratio_up(&three), 5e-324);
+        assert_eq!(Dyadic::from(2e-323).ratio_up(&three), 1e-323);
+        assert_eq!(one.ratio_up(&three), (1.0_f64 / 3.0).next_up());
+        assert_eq!(three.ratio_up(&one), 3.0);
+        let max = Dyadic::from(f64::MAX);
+        assert_eq!(max.ratio_up(&one), f64::MAX);
+        assert_eq!((&max + &tiny).ratio_up(&one), f64::INFINITY);
+        assert_eq!((&max + &max).ratio_up(&one), f64::INFINITY);
     }
 
     #[test]
