@@ -14,7 +14,7 @@
 //! more than [`CAPACITY`] components is refused.
 
 use super::Number;
-use super::float::{fast_two_sum, two_diff, two_prod, two_sum};
+use super::float::{exp2, fast_two_sum, two_diff, two_prod, two_sum};
 use std::cmp::Ordering;
 
 /// The most components an expansion can have.
@@ -26,13 +26,11 @@ pub(crate) const CAPACITY: usize = 12;
 #[inline]
 pub(crate) fn in_safe_range(value: f64) -> bool {
     let magnitude = value.abs();
-    magnitude == 0.0 || (LEAST..MOST).contains(&magnitude)
+    magnitude == 0.0 || (LEAST_SAFE_MAGNITUDE..SAFE_MAGNITUDE_LIMIT).contains(&magnitude)
 }
 
-/// 2^-125.
-const LEAST: f64 = 2.350988701644575e-38;
-/// 2^150.
-const MOST: f64 = 1.42724769270596e45;
+const LEAST_SAFE_MAGNITUDE: f64 = exp2(-125);
+const SAFE_MAGNITUDE_LIMIT: f64 = exp2(150);
 
 /// A result would have more than [`CAPACITY`] components.
 #[derive(Clone, Copy, Debug)]

@@ -160,10 +160,10 @@ pub(crate) fn exponent_above(value: f64) -> i32 {
 }
 
 /// 2 to an integer power; 0 below the subnormals, infinite above the range.
-pub(crate) fn exp2(exponent: i32) -> f64 {
+pub(crate) const fn exp2(exponent: i32) -> f64 {
     match exponent {
         1024.. => f64::INFINITY,
-        -1022.. => f64::from_bits(u64::from((exponent + 1023).unsigned_abs()) << 52),
+        -1022.. => f64::from_bits(((exponent + 1023) as u64) << 52),
         -1074.. => f64::from_bits(1 << (exponent + 1074)),
         _ => 0.0,
     }

@@ -62,6 +62,7 @@ pub struct Camera {
 
 /// What a camera sees.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum Projection {
     /// Centred perspective.
     Perspective {

@@ -92,19 +92,20 @@ impl Shape {
         }
     }
 
-    /// The frame coordinate, by axis, that all points of a face have in common.
-    pub(crate) fn level(&self, face: Face) -> Option<(usize, f64)> {
+    /// The axis and the value of the frame coordinate that all points of a face have
+    /// in common, if there is one.
+    pub(crate) fn constant_coordinate(&self, face: Face) -> Option<(usize, f64)> {
         let i = match face {
             Face::Near => return Some((2, self.near().z)),
             Face::Far => return self.far().map(|far| (2, far.z)),
             _ => face as usize - 2,
         };
         let at = self.near().rect.to_array()[i];
-        let level = match self {
+        let is_constant = match self {
             Shape::Finite { far, .. } => far.rect.to_array()[i] == at,
             Shape::Infinite { slopes, .. } => slopes.to_array()[i] == 0.0,
         };
-        level.then_some((i / 2, at))
+        is_constant.then_some((i / 2, at))
     }
 
     /// The shape scaled about its frame's origin; slopes stay.

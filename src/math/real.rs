@@ -120,8 +120,8 @@ macro_rules! real {
     };
 }
 
-real!(f32, 5.960464477539063e-8, 1.401298464324817e-45);
-real!(f64, 1.1102230246251565e-16, 5e-324);
+real!(f32, f32::EPSILON as f64 / 2.0, f32::from_bits(1) as f64);
+real!(f64, f64::EPSILON / 2.0, f64::from_bits(1));
 
 /// A scalar in a message: the shortest text that reads back, with an exponent
 /// where it would be long. `Display` of 1e300 has 301 digits.

@@ -32,6 +32,7 @@ const TAN_X: f64 = TAN_Y * 16.0 / 9.0;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[non_exhaustive]
 pub enum Mix {
     /// Nearly all are outside.
     MostlyOut,

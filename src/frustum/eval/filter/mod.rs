@@ -4,7 +4,7 @@
 //! # Values
 //! In the frame, with w = s (z - z_near) the depth, a side's bound is
 //! `n + m w`, m = (f - n) / |D| its slope per unit of depth (see
-//! [`super::boundary`] for the letters), and the values are
+//! [`boundary`](super::boundary) for the letters), and the values are
 //! `g = x - (n + m w)` and `(n + m w) - x`: the boundary functions divided by
 //! |D| > 0, so with the same signs and the same crossing parameters.
 //!
@@ -15,13 +15,13 @@
 //! `fl(a.c)` is within 4.01 u A S of the exact one; z - z_near adds
 //! u (|z| + |z_near|), the rounded slope u, the product u, the two sums
 //! u (|n| + |m w|) and u |g|. Added up:
-//! |g~ - g| <= 9.2 u scale, plus underflow, which [`FLOOR`] covers.
+//! |g~ - g| <= 9.2 u scale, plus underflow, which [`UNDERFLOW_ERROR`] covers.
 //! With the identity pose 5.1 u scale. `proofs/filter.gappa` proves both.
 //!
-//! The double-double values of [`super::precise`] are within 47.2 u^2 scale; the
+//! The double-double values of [`precise`](super::precise) are within 47.2 u^2 scale; the
 //! count is there. The code allows for 60.
 //!
-//! The *threshold* is T = 2^-46 scale + FLOOR = 128 u scale + FLOOR. So
+//! The *threshold* is T = 2^-46 scale + UNDERFLOW_ERROR = 128 u scale + UNDERFLOW_ERROR. So
 //! |g~| > T means:
 //! - the sign of g~ is the sign of g, with a factor of 13 to spare;
 //! - the double-double value has a relative error below u / 2: 47.2 u^2 of
@@ -30,24 +30,24 @@
 //! T is evaluated as `const + factor * S`, its rounding covered by that factor.
 //! The comparison is written with `>`, so that NaN and infinity fail it.
 
-use super::plain::{Form, General, Layout, Term};
-use super::precise::Precise;
 use crate::exact::double_double::Dd;
 use crate::exact::expansion::in_safe_range;
 use crate::exact::float::{Lanes, exp2, exponent_above, lowest_bit, two_diff, two_prod};
+use crate::frustum::eval::plain::{Form, General, Layout, Term};
+use crate::frustum::eval::precise::Precise;
 use crate::frustum::{Face, Frustum, Shape};
 use crate::math::{Pose, Segment, Vec3};
 use std::cmp::Ordering;
 use wide::f64x2;
 
-/// 2^-46.
-const RELATIVE: f64 = 1.4210854715202004e-14;
-/// 2^-53: double-double values, normalised, are within 60 u^2 scale, less than
-/// half of this times the threshold.
-pub(crate) const PRECISE: f64 = 1.1102230246251565e-16;
-/// 2^-500: far above what underflow can do inside [`in_range`], far below
-/// every scale.
-pub(crate) const FLOOR: f64 = 3.054_936_363_499_605e-151;
+/// 128 u: the threshold as a fraction of the scale.
+const THRESHOLD_PER_SCALE: f64 = exp2(-46);
+/// u: more than the error of a normalised double-double value as a fraction of the
+/// threshold, which is 60 u^2 of (128 u) at most, less than u / 2.
+pub(crate) const DOUBLE_DOUBLE_ERROR_PER_THRESHOLD: f64 = exp2(-53);
+/// More than the error that underflow causes: each of a few products loses at most 2^-1075,
+/// and no more than a slope below 2^200 ([`Filter::in_range`]) multiplies it afterwards.
+pub(crate) const UNDERFLOW_ERROR: f64 = exp2(-500);
 /// Stands for the far value of an infinite frustum: never crossed.
 pub(crate) const NO_FAR: f64 = 1e300;
 
@@ -139,12 +139,12 @@ impl Filter {
             f64x2::new([start.z, end.z]),
         );
         let ([near, far, left, right, bottom, top], size) = self.values_at::<L, _>(p);
-        let ends = f64x2::transpose([near, far]);
-        let sides = f64x2::transpose([left, right]);
-        let levels = f64x2::transpose([bottom, top]);
+        let depths = f64x2::transpose([near, far]);
+        let widths = f64x2::transpose([left, right]);
+        let heights = f64x2::transpose([bottom, top]);
         let size = size.to_array();
         let values = |i: usize| Values {
-            pairs: [ends[i], sides[i], levels[i]],
+            pairs: [depths[i], widths[i], heights[i]],
             size: size[i],
         };
         [values(0), values(1)]
@@ -211,7 +211,7 @@ impl Filter {
     #[inline(always)]
     pub(crate) fn crossing_thresholds<F: Lanes>(&self, size: F) -> (F, F) {
         let depth = if self.identity {
-            size.splat(FLOOR)
+            size.splat(UNDERFLOW_ERROR)
         } else {
             self.depth_threshold(size)
         };
@@ -219,7 +219,7 @@ impl Filter {
     }
 
     /// How far from a face both ends of a segment are certain to this filter, in units of
-    /// the largest magnitude in the face's normal (see `batch/segments/planes.rs`).
+    /// the largest magnitude in the face's normal (see `clip/many/intervals/planes.rs`).
     pub(crate) fn certain_beyond(&self) -> Beyond {
         let nothing = Beyond {
             constant: f64::INFINITY,
@@ -298,7 +298,8 @@ impl Filter {
             return None;
         }
         let value = self.precise.value(face as usize, p).hi;
-        let certain = value.abs() > PRECISE * self.threshold(face, values.size);
+        let certain =
+            value.abs() > DOUBLE_DOUBLE_ERROR_PER_THRESHOLD * self.threshold(face, values.size);
         if certain {
             value.partial_cmp(&0.0)
         } else {
@@ -387,9 +388,15 @@ impl Filter {
             constant = constant.max(self.at_near[i].abs() + slope * self.near.abs());
             factor = factor.max(if i < 2 { x } else { y } + slope * z);
         }
-        self.side = (RELATIVE * constant + FLOOR, RELATIVE * factor);
+        self.side = (
+            THRESHOLD_PER_SCALE * constant + UNDERFLOW_ERROR,
+            THRESHOLD_PER_SCALE * factor,
+        );
         let reach = self.near.abs().max(self.far.abs());
-        self.depth = (RELATIVE * reach + FLOOR, RELATIVE * z);
+        self.depth = (
+            THRESHOLD_PER_SCALE * reach + UNDERFLOW_ERROR,
+            THRESHOLD_PER_SCALE * z,
+        );
         // Below it the part of a value that changes with the point stays under
         // 2^480, so that of faces with values of both signs no value reaches
         // 2^482: products of two do not overflow, nor do any operand's halves.
@@ -400,7 +407,7 @@ impl Filter {
 
     /// Whether every constant is in the range that the error analysis assumes:
     /// zero, or of a magnitude at which products neither overflow nor lose
-    /// more than `FLOOR` covers.
+    /// more than `UNDERFLOW_ERROR` covers.
     fn in_range(&self) -> bool {
         let within =
             |v: f64, low: i32, high: i32| v == 0.0 || (v.abs() > exp2(low) && v.abs() < exp2(high));
@@ -526,5 +533,4 @@ impl Frustum {
 }
 
 #[cfg(test)]
-#[path = "filter_tests.rs"]
 mod tests;
