@@ -4,27 +4,28 @@
 //! `W > 0`, `-W <= X <= W`, `-W <= Y <= W` and the two bounds of the
 //! [`ClipSpace`]'s depth. `X`, `Y`, `W` are linear in `p`, so they can *be* the
 //! frame: the axes are the matrix's own rows, unrounded, whatever their lengths
-//! and angles; the sides are `x = +-z`, `y = +-z`. What is left:
+//! and angles; the sides are `x = +-z`, `y = +-z`. Three things remain:
 //!
-//! 1. the eye, where `X = Y = W = 0`: an exact 3x3 system, rounded once a
-//!    coordinate;
+//! 1. the eye, where `X = Y = W = 0`: an exact 3x3 system, each coordinate
+//!    rounded once;
 //! 2. `Z = c X + d Y + a W + b`, exactly. The depth bounds are then `W >= near`,
-//!    `W <= far` along the middle of the view, each rounded once. There is no
-//!    cancellation but what the matrix itself went through;
+//!    `W <= far` along the middle of the view, each rounded once. Nothing cancels
+//!    that did not cancel when the matrix was made;
 //! 3. `c` and `d`: zero, unless rounding of the matrix tilted the near and far
-//!    planes against the picture. Their effect is reported, not corrected.
+//!    planes relative to the picture. [`Deviation`] reports their effect; it is not
+//!    corrected.
 //!
 //! Where `W` is constant the projection is parallel, and `X`, `Y`, `Z` are the
-//! frame. Conventions are types, because taking one for another gives a frustum
-//! that looks right: see [`ClipSpace`] and [`MatrixLayout`]. Handedness needs
-//! no convention; the rows have it.
+//! frame. Conventions are types, because a wrong one can give a frustum that
+//! looks right: see [`ClipSpace`] and [`MatrixLayout`]. Handedness needs no
+//! convention; the rows determine it.
 
 use super::eval::exact_vec::{Dyadic, Dyadic3, Rounded, cross, dot, exact, unit};
 use super::{Direction, EndRect, Frustum, FrustumError, Shape};
 use crate::math::{Pose, Real, Rect, Vec3};
 use std::cmp::Ordering;
 
-/// How sixteen numbers make a matrix, and how the matrix acts on points.
+/// The storage order of a matrix, and the side on which it multiplies points.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum MatrixLayout {
     /// `m[i]` is row `i`, and clip coordinates are `M p`: mathematics, C arrays
@@ -50,7 +51,7 @@ impl MatrixLayout {
     }
 }
 
-/// The range of `Z / W` that is in view.
+/// The range of `Z / W` in view.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum DepthRange {
     /// `0 <= Z <= W`: Direct3D, Vulkan, Metal, WebGPU.
@@ -59,23 +60,23 @@ pub enum DepthRange {
     MinusOneToOne,
 }
 
-/// Which way clip `Y` goes in the picture. It only tells top from bottom.
+/// The direction of clip `Y` in the picture. It only decides which side is the top.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum ClipY {
-    /// Larger `Y` is higher: all but Vulkan.
+    /// Larger `Y` is higher: all interfaces except Vulkan.
     Up,
     /// Larger `Y` is lower: Vulkan, unless its viewport is flipped.
     Down,
 }
 
-/// What a view-projection matrix maps to.
+/// The conventions of the clip space that a view-projection matrix maps to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct ClipSpace {
     /// The range of depths.
     pub depth: DepthRange,
-    /// Whether the near face has the *largest* depth (reversed Z).
+    /// Whether the near face has the *largest* depth (reversed depth).
     pub reversed: bool,
-    /// Which way clip `Y` goes.
+    /// The direction of clip `Y`.
     pub y: ClipY,
 }
 
@@ -99,7 +100,7 @@ impl ClipSpace {
         y: ClipY::Down,
     };
 
-    /// The same, with near at the largest depth.
+    /// The same clip space with near at the largest depth.
     #[must_use]
     pub const fn reversed(self) -> Self {
         Self {
@@ -135,13 +136,13 @@ pub struct ViewProjection<T> {
     rows: [[T; 4]; 4],
 }
 
-/// A frustum from a matrix, and how far it is from what the matrix says.
+/// A frustum from a matrix, and its deviation from the exact clip volume.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MatrixFrustum {
     /// The frustum. Frame `z` is clip `W`: the distance from the eye for the
     /// usual matrices, in any unit otherwise. (Orthographic: clip `Z`.)
     pub frustum: Frustum,
-    /// The measured difference.
+    /// The measured deviation.
     pub deviation: Deviation,
 }
 
@@ -168,7 +169,7 @@ pub struct Deviation {
     pub far: f64,
 }
 
-/// The nine parts of a perspective matrix as rows in the frame.
+/// The rows of a matrix: linear parts and constants.
 struct Rows {
     x: Vec3<f64>,
     y: Vec3<f64>,
@@ -179,7 +180,7 @@ struct Rows {
 }
 
 impl<T: Real> ViewProjection<T> {
-    /// From sixteen numbers.
+    /// Creates a matrix from its entries in the given layout.
     #[must_use]
     pub fn new(entries: [[T; 4]; 4], layout: MatrixLayout) -> Self {
         Self {
@@ -191,13 +192,13 @@ impl<T: Real> ViewProjection<T> {
         }
     }
 
-    /// From sixteen numbers in a row, four for each of what the layout counts
-    /// first: rows or columns, as they lie in memory.
+    /// Creates a matrix from its entries in memory order: four rows or four columns,
+    /// depending on the layout.
     ///
     /// ```
     /// use frusta::{MatrixLayout, ViewProjection};
-    /// let numbers: [f64; 16] = std::array::from_fn(|i| i as f64);
-    /// let matrix = ViewProjection::from_flat(numbers, MatrixLayout::ColumnMajorColumnVectors);
+    /// let entries: [f64; 16] = std::array::from_fn(|i| i as f64);
+    /// let matrix = ViewProjection::from_flat(entries, MatrixLayout::ColumnMajorColumnVectors);
     /// let rows = matrix.to_array(MatrixLayout::RowMajorColumnVectors);
     /// assert_eq!(rows[0], [0.0, 4.0, 8.0, 12.0]);
     /// ```
@@ -207,7 +208,7 @@ impl<T: Real> ViewProjection<T> {
         Self::new(entries, layout)
     }
 
-    /// The sixteen numbers.
+    /// The entries in the given layout.
     #[must_use]
     pub fn to_array(&self, layout: MatrixLayout) -> [[T; 4]; 4] {
         if layout.holds_columns() {
@@ -219,23 +220,21 @@ impl<T: Real> ViewProjection<T> {
 
     /// The frustum that the matrix maps to the clip volume.
     ///
-    /// A far plane at or behind infinity, as far as rounding explains it, makes
-    /// an infinite frustum: in `f32` that is what a matrix made for `near =
-    /// 1e-6, far = 1e6` without reversed depth says, for its entries hold no
-    /// more.
+    /// A far plane at infinity, or beyond it by no more than rounding explains, gives
+    /// an infinite frustum. An `f32` matrix for `near = 1e-6, far = 1e6` without
+    /// reversed depth is such a case: its entries do not determine the far plane.
     ///
-    /// Error: see [`Deviation`], measured for each matrix. It counts from the
-    /// exact clip volume of the given entries; what rounding did before, the
-    /// matrix no longer says (a near plane at 0.1 seen from an eye at 1e7 is
-    /// lost in `f32`).
+    /// Error: [`Deviation`] bounds it, for each matrix. It is relative to the exact
+    /// clip volume of the given entries; errors of those entries are not part of it
+    /// (in `f32`, a near plane at 0.1 seen from an eye at 1e7 is lost).
     ///
     /// # Errors
-    /// [`FrustumError::NonFinite`] with the entry;
+    /// [`FrustumError::NonFinite`], which names the entry;
     /// [`FrustumError::SingularMatrix`]; [`FrustumError::NegativeW`];
     /// [`FrustumError::TiltedDepth`] for near and far planes that are not
     /// parallel to the picture, by more than `64 u` (`u` of `T`);
-    /// [`FrustumError::NoNearPlane`] and [`FrustumError::FarBehindEye`], which
-    /// a wrong [`ClipSpace`] causes; [`FrustumError::FarNotBeyondNear`];
+    /// [`FrustumError::NoNearPlane`] and [`FrustumError::FarBehindEye`], mostly for a
+    /// wrong [`ClipSpace`]; [`FrustumError::FarNotBeyondNear`];
     /// [`FrustumError::Overflow`].
     pub fn frustum(&self, clip: ClipSpace) -> Result<MatrixFrustum, FrustumError> {
         let mut rows = [[0.0; 4]; 4];
@@ -334,7 +333,7 @@ impl System {
         }
     }
 
-    /// How a vector is made of the three rows, times the determinant.
+    /// The coefficients of a vector in terms of the three rows, times the determinant.
     fn coefficients(&self, v: Vec3<f64>) -> Dyadic3 {
         let v = exact(v);
         std::array::from_fn(|k| dot(&self.columns[k], &v))
@@ -453,11 +452,11 @@ impl Depth {
         Ok(distance)
     }
 
-    /// `None`: there is no far plane.
+    /// The far distance; `None` for an infinite frustum.
     fn far_distance(&self, near: f64, slack: f64) -> Result<Option<f64>, FrustumError> {
         let far = &self.far;
         if far.slope.order() != Ordering::Less {
-            // At infinity, or beyond it by rounding.
+            // The plane is at infinity, or beyond it.
             let beyond = far.slope.ratio(&self.determinant);
             if beyond > slack {
                 let w = far.constant.ratio(&-&far.slope);
@@ -570,8 +569,8 @@ fn check_tilt(rows: &Rows, slack: f64) -> Result<(), FrustumError> {
     };
     let sine = z.cross(w);
     let sine = sine.dot(sine).sqrt();
-    // Rounding in `W` counts for a short `Z`, too. Both lengths at most differ
-    // by a factor beyond the range of doubles: then the quotient is infinite.
+    // The rounding error of `W` is part of a short `Z`, too. If the lengths differ by a
+    // factor beyond the range of `f64`, the quotient is infinite.
     let largest = |v: Vec3<f64>| v.x.abs().max(v.y.abs()).max(v.z.abs());
     if sine > slack * (1.0 + largest(rows.w) / largest(rows.z)) {
         Err(FrustumError::TiltedDepth { sine })

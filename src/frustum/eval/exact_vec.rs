@@ -1,9 +1,8 @@
 //! Exact vectors for constructing frusta and for volumes.
 //!
-//! A determinant, or a difference of far points, loses nothing; one rounding
-//! ends each computation. Used once a frustum, or once for a volume that doubles leave
-//! open, which is why allocating is no concern here. Input must be finite; callers check that
-//! first.
+//! A determinant, or a difference of far points, loses nothing; each computation ends with one
+//! rounding. It runs once per frustum, or once per volume that floating point leaves undecided, so
+//! allocation is acceptable here. Input must be finite; callers check that first.
 
 use crate::exact::Number;
 pub(crate) use crate::exact::dyadic::Dyadic;
@@ -13,14 +12,14 @@ use std::cmp::Ordering;
 /// Three exact coordinates.
 pub(crate) type Dyadic3 = [Dyadic; 3];
 
-/// Roundings to the nearest double, ties to even; infinite beyond the range,
+/// Roundings to the nearest `f64`, ties to even; infinite beyond the range,
 /// never -0.
 pub(crate) trait Rounded {
-    /// The number itself.
+    /// The number, rounded.
     fn to_f64(&self) -> f64;
-    /// `self * 2^shift`.
+    /// `self * 2^shift`, rounded.
     fn scaled(&self, shift: i32) -> f64;
-    /// `self / other`; infinite if `other` is zero.
+    /// `self / other`, rounded; infinite if `other` is zero.
     fn ratio(&self, other: &Self) -> f64;
     /// `self / other` rounded towards positive infinity, for `other > 0`.
     fn ratio_up(&self, other: &Self) -> f64;
@@ -105,7 +104,7 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    /// Every finite double, subnormals and both ends of the range included.
+    /// Every finite `f64`, subnormals and both ends of the range included.
     fn finite() -> impl Strategy<Value = f64> {
         any::<u64>().prop_filter_map("infinite or NaN", |bits| {
             Some(f64::from_bits(bits)).filter(|x| x.is_finite())

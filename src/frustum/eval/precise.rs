@@ -1,16 +1,16 @@
 //! Boundary values in double-double: the filter's values (see
 //! [`super::filter`]) with a relative error small enough to compute with.
 //!
-//! Which face it is costs a look-up and no branch, and several faces, of one
-//! point or of several, are evaluated side by side. The rounded value goes
-//! straight through; what each of its operations lost is computed beside it,
+//! The face is selected by a look-up, not a branch, and several faces, at one
+//! point or at several, are evaluated side by side. The rounded value is computed
+//! as usual; the rounding error of each of its operations is computed beside it,
 //! exactly for sums and products, and added at the end.
 //!
 //! # The error bound
 //! In u^2, with X = A_x S, Z = A_z S (see [`super::filter`]) and c, c_low the
-//! rounded difference and its rest of a point and the pose's origin. Only what
-//! is added beside the rounded value is rounded; each such sum or product is
-//! u times something, so its rounding is u^2 times that.
+//! rounded difference of a point and the pose's origin, and its rounding error. Only
+//! the terms beside the rounded value are rounded; each such sum or product is
+//! u times something, so its rounding error is u^2 times that.
 //!
 //! *The identity pose*, where frame coordinates are the point's: one formula
 //! for all faces, `c - at - m (z - z_near)`, with W = Z + |z_near|:
@@ -27,7 +27,7 @@
 //! rests        of products 3 + 3, of sums 2, with d_low 1, all together 3 + 6  18 Y, 6 K
 //! d            the slope 15, times z_near 3, minus at 3         21 |m z_near|, 3 |at|
 //! ```
-//! Both are below 47.2 u^2 scale (`proofs/precise.gappa`); what relies on it counts with 60.
+//! Both are below 47.2 u^2 scale (`proofs/precise.gappa`); code that relies on it assumes 60.
 
 use crate::exact::double_double::Dd;
 use crate::exact::float::{Lanes, Single, Width, split, two_diff, two_prod_split, two_sum};
@@ -38,10 +38,10 @@ use wide::f64x2;
 /// A face over the coordinates of the identity pose.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct FaceInFrame {
-    /// Which coordinate.
+    /// The index of the coordinate.
     axis: usize,
     at: f64,
-    /// The slope by z, with its upper and lower half, and what rounding it lost.
+    /// The slope by z, its upper and lower half, and its rounding error.
     slope: f64,
     halves: (f64, f64),
     rest: f64,
@@ -61,7 +61,7 @@ struct FaceInWorld {
 }
 
 impl FaceInWorld {
-    /// From the two axes of a face in the frame, where it is, and its slope.
+    /// The plane of a face, from the pose, the face in the frame, and the near `z`.
     fn new(pose: &Pose, face: &FaceInFrame, near: f64) -> Self {
         let slope = Dd::new(face.slope, face.rest);
         let (across, along) = (pose.axes[face.axis], pose.axes[2]);
@@ -81,7 +81,7 @@ impl FaceInWorld {
 }
 
 impl FaceInWorld {
-    /// What coordinate j contributes, the same face in each lane.
+    /// The contribution of coordinate j, for the same face in each lane.
     #[inline(always)]
     fn term<F: Lanes>(&self, j: usize, p: F, origin: Vec3<f64>) -> (F, F) {
         let halves = (p.splat(self.halves[j].0), p.splat(self.halves[j].1));
@@ -95,13 +95,13 @@ impl FaceInWorld {
     }
 }
 
-/// The six faces, in the order of [`super::Face::ALL`].
+/// The six faces, in the order of [`Face::ALL`](crate::Face::ALL).
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Precise {
-    /// Two more than there are, so that no bound is checked.
+    /// Padded to eight, so that an index modulo 8 needs no bounds check.
     faces: [FaceInFrame; 8],
     near: f64,
-    /// What turns `c - at - m (z - z_near)` into the boundary value.
+    /// The factors that turn `c - at - m (z - z_near)` into the boundary values.
     signs: [f64; 6],
     /// Origin and planes of a pose that is not the identity.
     world: Option<(Vec3<f64>, [FaceInWorld; 8])>,
@@ -152,9 +152,9 @@ impl Precise {
         }
     }
 
-    /// Values of faces (by number) at points, side by side, up to their signs:
-    /// each as a rounded value and a small rest whose exact sum is within 60 u^2
-    /// scale of the truth.
+    /// Values of faces (by index) at points, side by side, up to their signs: each
+    /// as a rounded value and a small rest, whose exact sum is within 60 u^2 scale of
+    /// the exact value.
     #[inline(always)]
     fn values<W: Width<N>, const N: usize>(
         &self,
@@ -196,8 +196,8 @@ impl Precise {
         value_in_frame(&lanes, self.near, c, z)
     }
 
-    /// One face's magnitudes at points whose coordinates come axis by axis: the same bits
-    /// as [`Precise::magnitudes`].
+    /// One face's magnitudes at points whose coordinates are given axis by axis, with the same
+    /// bits as [`Precise::magnitudes`].
     #[inline(always)]
     pub(crate) fn magnitude<F: Lanes>(&self, face: usize, p: impl Fn(usize) -> F) -> F {
         let (g, rest) = match &self.world {
@@ -312,7 +312,7 @@ fn values_in_world<W: Width<N>, const N: usize>(
     )
 }
 
-/// What coordinate j contributes, a face a lane.
+/// The contribution of coordinate j, with one face in each lane.
 #[inline(always)]
 fn lanes_term<W: Width<N>, const N: usize>(
     width: W,
@@ -329,7 +329,7 @@ fn lanes_term<W: Width<N>, const N: usize>(
     term(p, origin[j], normal, (upper, lower), rest)
 }
 
-/// What one coordinate contributes: its product with the normal's, and the rest.
+/// The contribution of one coordinate: its product with the normal's, and the rest.
 #[inline(always)]
 fn term<F: Lanes>(p: F, origin: f64, normal: F, halves: (F, F), rest: F) -> (F, F) {
     let (c, c_low) = two_diff(p, p.splat(origin));
@@ -338,7 +338,7 @@ fn term<F: Lanes>(p: F, origin: f64, normal: F, halves: (F, F), rest: F) -> (F, 
     (product, lost + low)
 }
 
-/// The three contributions and the offset.
+/// The sum of the three contributions and the offset.
 #[inline(always)]
 fn sum<F: Lanes>(
     [(x, x_rest), (y, y_rest), (z, z_rest)]: [(F, F); 3],
