@@ -388,15 +388,13 @@ impl Filter {
             constant = constant.max(self.at_near[i].abs() + slope * self.near.abs());
             factor = factor.max(if i < 2 { x } else { y } + slope * z);
         }
-        self.side = (
-            THRESHOLD_PER_SCALE * constant + UNDERFLOW_ERROR,
-            THRESHOLD_PER_SCALE * factor,
-        );
+        let terms = |constant: f64, factor: f64| {
+            let constant = THRESHOLD_PER_SCALE * constant + UNDERFLOW_ERROR;
+            (constant, THRESHOLD_PER_SCALE * factor)
+        };
+        self.side = terms(constant, factor);
         let reach = self.near.abs().max(self.far.abs());
-        self.depth = (
-            THRESHOLD_PER_SCALE * reach + UNDERFLOW_ERROR,
-            THRESHOLD_PER_SCALE * z,
-        );
+        self.depth = terms(reach, z);
         // Below this limit the part of a value that depends on the point is less than
         // 2^480. A face with values of both signs then has no value of 2^482 or more, so
         // products of two do not overflow, nor do the halves of any operand. A face far
