@@ -1,4 +1,4 @@
-//! Constructors against what they promise: right, or a named error.
+//! The constructors' promises: a right frustum, or an error of its own for each invalid input.
 
 use frusta::{
     Camera, Direction, EndRect, Frustum, FrustumError, Pose, Projection, Rect, Shape, Vec3,
@@ -6,7 +6,7 @@ use frusta::{
 use proptest::prelude::*;
 use std::f64::consts::PI;
 
-/// From the origin down `-z`, `y` up, 90 degrees, square.
+/// A camera at the origin that looks along `-z`, `y` up, 90 degrees, square.
 fn plain_camera() -> Camera {
     Camera {
         eye: Vec3::new(0.0, 0.0, 0.0),
@@ -27,7 +27,7 @@ fn with(change: impl FnOnce(&mut Camera)) -> Result<Frustum, FrustumError> {
     camera.frustum()
 }
 
-/// Equal up to `ulps` units in the last place.
+/// Whether two numbers are equal up to `ulps` units in the last place.
 fn close(a: f64, b: f64, ulps: f64) -> bool {
     (a - b).abs() <= ulps * f64::EPSILON * b.abs()
 }
@@ -251,8 +251,8 @@ fn out_of_range_products_are_named() {
 }
 
 #[test]
-fn camera_axes_do_not_lose_to_a_nearly_parallel_up() {
-    // The exact cross product (0, 0, 1) * 2^-52; rounded ones are off or zero.
+fn camera_axes_are_accurate_for_a_nearly_parallel_up() {
+    // The exact cross product is (0, 0, 1) * 2^-52; a rounded one is wrong or zero.
     let frustum = with(|c| {
         c.eye = Vec3::new(1e15, 0.0, 0.0);
         c.target = Vec3::new(1e15 + 1.0, 1.0, 0.0);
@@ -260,7 +260,7 @@ fn camera_axes_do_not_lose_to_a_nearly_parallel_up() {
     })
     .unwrap();
     assert_eq!(frustum.pose().axes[0], Vec3::new(0.0, 0.0, 1.0));
-    // Differences beyond the range of doubles.
+    // Differences beyond the range of f64.
     let frustum = with(|c| {
         c.eye = Vec3::new(0.0, 0.0, f64::MAX);
         c.target = Vec3::new(0.0, 0.0, -f64::MAX);
@@ -288,7 +288,7 @@ fn the_canonical_form_is_checked() {
 
 #[test]
 fn a_frustum_equals_itself() {
-    // The filters have no room for such slopes, and once compared their NaN.
+    // Such slopes are out of the filter's range, and equality once compared their NaN.
     let shape = Shape::Infinite {
         near: EndRect::new(0.0, -1.0, 0.0, -1.0, 0.0),
         slopes: Rect::new(-8.9e305, 0.0, -1.0, 0.0),
@@ -302,7 +302,7 @@ fn a_frustum_equals_itself() {
     assert_ne!(frustum, Frustum::new(pose, shape).unwrap());
 }
 
-/// Any double at all.
+/// Any finite or non-finite value.
 fn wild() -> impl Strategy<Value = f64> {
     prop_oneof![
         any::<u64>().prop_map(f64::from_bits),
@@ -358,7 +358,7 @@ proptest! {
         };
         let frustum = camera.frustum().unwrap();
         let [right, top, forward] = frustum.pose().axes;
-        // Right-handed with the viewer's side as z; up on the upper side.
+        // Right-handed if z points to the viewer; up is on the upper side.
         prop_assert!((right.cross(top) + forward).to_array().iter().all(|x| x.abs() < 1e-15));
         prop_assert!(top.dot(camera.up) > 0.0);
         prop_assert!((forward.dot((camera.target - eye) * (1.0 / unit)) / 1e3).powi(2)
@@ -374,7 +374,7 @@ proptest! {
     }
 
     #[test]
-    fn any_camera_is_right_or_refused(eye in wild_vec(), target in wild_vec(), up in wild_vec(),
+    fn any_camera_is_right_or_an_error(eye in wild_vec(), target in wild_vec(), up in wild_vec(),
                                       projection in wild_projection(), near in wild(), far in wild()) {
         let camera = Camera { eye, target, up, projection, near, far };
         match camera.frustum() {

@@ -1,5 +1,5 @@
-//! The exact clipper against the oracle, on frusta and segments made to be
-//! singular: ends on vertices, edges, faces and lattice points, nudged by a few
+//! The exact clipper compared with the oracle, for frusta and segments that are singular by
+//! construction: ends on vertices, edges, faces and lattice points, nudged by a few
 //! units in the last place, carried to other poses and scales.
 
 use frusta::oracle::Oracle;
@@ -53,7 +53,7 @@ fn shape() -> impl Strategy<Value = Shape> {
     ]
 }
 
-/// Rows of the rotation by an integer quaternion, times its squared length.
+/// The rows of the rotation by an integer quaternion, times its squared length.
 fn integer_axes([w, x, y, z]: [i32; 4]) -> [Vec3<f64>; 3] {
     let row = |a: i32, b: i32, c: i32| Vec3::new(a.into(), b.into(), c.into());
     [
@@ -157,7 +157,7 @@ fn place<T: Real>(frustum: &Frustum, spot: Spot) -> Vec3<T> {
     Vec3::new(nudge(p.x, ux), nudge(p.y, uy), nudge(p.z, uz))
 }
 
-/// Two spots, drawn apart along their line by powers of two.
+/// A segment between two spots, extended along their line by powers of two.
 fn segment<T: Real>(frustum: &Frustum, spots: [Spot; 2], reach: [i32; 2]) -> Segment<T> {
     let [a, b] = spots.map(|spot| place::<T>(frustum, spot));
     let d = b - a;
@@ -237,7 +237,7 @@ proptest! {
     }
 }
 
-/// The frustum and its place scaled about the world's origin.
+/// The frustum scaled about the world's origin.
 fn scaled(frustum: &Frustum, s: f64) -> Option<Frustum> {
     let pose = frustum.pose();
     let end = |e: EndRect| {

@@ -1,5 +1,5 @@
-//! What cameras and models at the edges of the number range give: the exact
-//! answer, or an error by name when the frustum is made.
+//! Cameras and models at the ends of the number range: the answer is exact, or the constructor
+//! gives an error.
 
 use frusta::samples::Random;
 use frusta::{
@@ -8,8 +8,8 @@ use frusta::{
 };
 use frusta_lab::check::assert_guarantees;
 
-/// Segments between points on, near and off the features of a frustum, all
-/// checked; returns how many there were of each class.
+/// Checks segments between points on, near and away from the features of a frustum; returns
+/// the number of each class.
 fn classes<T: Real>(frustum: &Frustum, reach: f64) -> [u32; 5] {
     let shape = frustum.shape();
     let near = shape.near();
@@ -51,7 +51,7 @@ fn classes<T: Real>(frustum: &Frustum, reach: f64) -> [u32; 5] {
     classes
 }
 
-/// Both outcomes that need an interior, and one that needs an exterior.
+/// Asserts both classes that need an interior, and one that needs an exterior.
 fn assert_varied(classes: [u32; 5]) {
     let [out, _, boundary, inside, cross] = classes;
     assert!(
@@ -166,7 +166,7 @@ fn subnormal_coordinates() {
 }
 
 #[test]
-fn a_segment_from_end_to_end_of_the_doubles() {
+fn a_segment_across_the_whole_range_of_f64() {
     let [frustum, _] = solids(0.0, 1.0);
     let segment = Segment::new([0.0, 0.0, -f64::MAX], [0.0, 0.0, f64::MAX]);
     assert_guarantees(&frustum, &segment);
@@ -178,9 +178,9 @@ fn a_segment_from_end_to_end_of_the_doubles() {
     );
 }
 
-/// What no double can hold is refused by name, not clamped.
+/// Numbers out of the range of `f64` are errors, not clamped.
 #[test]
-fn numbers_that_make_no_frustum_are_named() {
+fn numbers_out_of_range_have_their_own_errors() {
     let error = |camera: Camera| camera.frustum().unwrap_err();
     assert!(matches!(
         error(camera(1.0, 1.0)),

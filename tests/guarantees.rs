@@ -1,8 +1,7 @@
-//! The guarantees G1 to G8, each by name, over the singular samples and every
+//! Tests of the guarantees G1 to G8 by name, with the singular samples and every
 //! family of cases, in `f64` and `f32`. (G7 is measured, not promised.)
 //!
-//! Every test counts what it looked at, so that none can pass by looking at
-//! nothing.
+//! Every test counts the cases it has checked, so that none can pass without any.
 
 use frusta::oracle::{
     Oracle, OracleClip, ViolationKind, check_idempotent, check_swapped, round_nearest,
@@ -29,7 +28,7 @@ impl<T: Real> Case<'_, T> {
         clipped.expect("the families' segments are finite")
     }
 
-    /// The two ends of the answer, each with the exact one.
+    /// The two ends of the answer, each with the exact end.
     fn ends(&self, answer: &SegmentClip<T>) -> Vec<(PartEnd<T>, frusta::oracle::OracleEnd)> {
         let (Some(part), Some(exact)) = (answer.part, &self.truth.part) else {
             return Vec::new();
@@ -40,7 +39,7 @@ impl<T: Real> Case<'_, T> {
         ]
     }
 
-    /// No violation of these kinds.
+    /// Asserts that there is no violation of these kinds.
     fn assert_none(&self, accuracy: Accuracy, kinds: &[ViolationKind]) {
         let answer = self.clip(accuracy);
         let mut found = self
@@ -78,7 +77,7 @@ fn each_of<T: Real>(family: Family, see: &mut impl FnMut(&Case<'_, T>)) {
     }
 }
 
-/// Something to do with every case in either scalar type.
+/// A visitor of all cases in both scalar types.
 trait Visit {
     fn see<T: Real>(&mut self, case: &Case<'_, T>);
 }
@@ -114,7 +113,7 @@ fn g1_class_and_sets_are_exact() {
     assert!(enough, "{:?} of {:?}", topology.classes, Class::ALL);
 }
 
-/// Against answers known from the construction, without the oracle.
+/// Compares with answers known from the construction, without the oracle.
 #[test]
 fn g1_holds_for_the_singular_samples_in_48_orientations_and_rotated() {
     let mut placements = Placement::signed_permutations();
@@ -209,7 +208,7 @@ fn g2_in_the_identity_pose_near_and_far_hits_have_that_z() {
     assert!(depths.ends > 100, "{}", depths.ends);
 }
 
-/// Clipped ends to an accuracy.
+/// Counts of clipped ends with one accuracy.
 struct Points {
     accuracy: Accuracy,
     clipped: u32,
@@ -247,7 +246,7 @@ impl Visit for Points {
             self.clipped += 1;
             self.inward += u32::from(end.inward);
             if self.accuracy == Accuracy::Nearest {
-                // Said once more, without the check.
+                // Tested again, without the oracle's check.
                 let nearest = exact.point.each_ref().map(round_nearest::<T>);
                 assert_eq!(end.point.to_array(), nearest, "{}", case.input());
                 assert_eq!(end.t, round_nearest::<T>(&exact.t), "{}", case.input());
@@ -257,7 +256,7 @@ impl Visit for Points {
 }
 
 #[test]
-fn g3_fast_points_are_within_8_u_and_parameters_within_4_u() {
+fn g3_fast_points_are_within_8_u_and_a_subnormal_and_parameters_within_4_u() {
     assert_eq!(Points::count(Accuracy::Fast).inward, 0);
 }
 
@@ -267,7 +266,7 @@ fn g3_nearest_is_correctly_rounded() {
 }
 
 #[test]
-fn g3_inward_is_within_two_ulp_or_says_that_there_is_none() {
+fn g3_inward_points_are_within_two_ulp_or_flagged() {
     let points = Points::count(Accuracy::Inward);
     assert!(
         points.inward > points.clipped / 2,
@@ -301,7 +300,7 @@ impl Visit for Containment {
     }
 }
 
-/// `Nearest` is outside by half an ulp at most because it is correctly rounded
+/// A `Nearest` point is outside by at most half an ulp, because it is correctly rounded
 /// (G3); that it often is outside shows that `Inward` is needed.
 #[test]
 fn g4_inward_points_are_in_the_frustum() {
@@ -395,8 +394,8 @@ impl Visit for Algorithms {
     }
 }
 
-/// One algorithm decides two lanes at a time, the others by scalar predicates:
-/// the same bits with SIMD and without.
+/// One algorithm decides two lanes at a time, the others use scalar predicates: the bits are
+/// the same with SIMD and without.
 #[test]
 fn g8_all_exact_algorithms_give_the_same_bits() {
     let mut algorithms = Algorithms::default();
@@ -404,8 +403,7 @@ fn g8_all_exact_algorithms_give_the_same_bits() {
     assert!(algorithms.answers > 100_000, "{}", algorithms.answers);
 }
 
-/// Nothing is remembered from one segment to the next, and threads share
-/// nothing.
+/// No state is kept from one segment to the next, and threads share none.
 #[test]
 fn g8_the_order_of_segments_and_the_number_of_threads_change_no_bit() {
     for &family in Family::ALL {
@@ -433,9 +431,9 @@ fn g8_the_order_of_segments_and_the_number_of_threads_change_no_bit() {
     }
 }
 
-/// The check itself tells a zero's sign and a face apart.
+/// The comparison of these tests distinguishes the signs of zeros, and faces.
 #[test]
-fn g8_bits_tells_answers_apart() {
+fn g8_bits_distinguish_answers() {
     let frustum = Placement::IDENTITY.place(&Solid::SYMMETRIC).unwrap();
     let at = |x: f64| frustum.clip_segment(&Segment::new([x, 0.0, 9.0], [0.0, 0.0, 10.0]));
     let (plus, minus) = (at(0.0).unwrap(), at(-0.0).unwrap());

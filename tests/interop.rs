@@ -1,4 +1,4 @@
-//! Conversions to and from other libraries, each under its feature.
+//! Conversions to and from the types of other libraries, each with its feature.
 
 #![allow(unused_imports, reason = "each feature uses its own part")]
 
@@ -80,7 +80,7 @@ mod glam {
             ),
             [1.0, 200.0, 3.0],
         );
-        // As bevy builds reversed orthographic depth: near and far swapped.
+        // Reversed orthographic depth as in bevy: near and far swapped.
         check(
             measure(
                 rh::directx::orthographic(-4.0, 4.0, -3.0, 3.0, 200.0, 1.0),
@@ -88,7 +88,7 @@ mod glam {
             ),
             [1.0, 200.0, 3.0],
         );
-        // Its Vulkan matrices turn y over; the top is the top all the same.
+        // Its Vulkan matrices flip y; the top is still the top.
         check(
             measure(
                 rh::vulkan::perspective_infinite_reverse(RIGHT, 1.0, 0.25),
@@ -101,7 +101,7 @@ mod glam {
     }
 
     #[test]
-    fn matrices_come_back() {
+    fn matrices_convert_back() {
         let m = DMat4::from_cols_array(&std::array::from_fn(|i| i as f64));
         let ours = ViewProjection::from(m);
         assert_eq!(
@@ -188,16 +188,16 @@ mod serde {
         }
         let frustum: Frustum = serde_json::from_str(INFINITE).unwrap();
         assert_eq!(frustum.shape().direction(), Direction::MinusZ);
-        // Integers are numbers too.
+        // Integers are read as numbers.
         let frustum: Frustum = serde_json::from_str(&FINITE.replace(".0", "")).unwrap();
         assert_eq!(serde_json::to_string(&frustum).unwrap(), FINITE);
-        // And so is a direction with a point.
+        // So is a direction with a decimal point.
         let frustum: Frustum = serde_json::from_str(&INFINITE.replace(":-1}", ":-1.0}")).unwrap();
         assert_eq!(serde_json::to_string(&frustum).unwrap(), INFINITE);
     }
 
     #[test]
-    fn no_other_field_is_taken_at_any_depth() {
+    fn other_fields_are_errors_at_every_depth() {
         for (text, near, with) in [
             (FINITE, r#""near":{"#, r#""near":{"rihgt":1,"#),
             (FINITE, r#""far":{"#, r#""far":{"depth":1,"#),
@@ -240,7 +240,7 @@ mod serde {
     }
 
     #[test]
-    fn results_read_back_and_are_called_as_in_csv() {
+    fn results_read_back_and_have_the_names_of_csv() {
         let frustum: Frustum = serde_json::from_str(FINITE).unwrap();
         let segment = Segment::new([0.0, 0.0, 2.0], [4.0, 4.0, 2.0]);
         let clip = frustum.clip_segment(&segment).unwrap();
@@ -286,7 +286,7 @@ mod serde {
     }
 
     #[test]
-    fn counts_read_back_where_a_stage_is_missing() {
+    fn counts_read_back_if_a_stage_is_missing() {
         let counts: StageCounts = serde_json::from_str(r#"{"filter_failures":3}"#).unwrap();
         assert_eq!(
             serde_json::to_string(&counts).unwrap(),

@@ -1,5 +1,4 @@
-//! Frusta from matrices: every convention, and the ones that are easily taken
-//! for another.
+//! Frusta from matrices: every convention, and conventions that are easily confused.
 
 use frusta::{
     ClipSpace, ClipY, Deviation, Direction, FarCorners, Frustum, FrustumError, MatrixFrustum,
@@ -36,7 +35,7 @@ fn ends(clip: ClipSpace) -> (f64, f64) {
 }
 
 /// Perspective along `-z` with slopes `w`, `h`, shifted by `shift`: `Z = a W +
-/// b` with the two depths at `near` and `far`, `far` perhaps infinite.
+/// b` with the two depths at `near` and `far`, which may be infinite.
 fn perspective(clip: ClipSpace, w: f64, h: f64, shift: f64, near: f64, far: f64) -> Matrix {
     let (at_near, at_far) = ends(clip);
     // a near + b = at_near near, a far + b = at_far far.
@@ -72,7 +71,7 @@ fn product(a: Matrix, b: Matrix) -> Matrix {
     std::array::from_fn(|i| std::array::from_fn(|j| (0..4).map(|k| a[i][k] * b[k][j]).sum::<f64>()))
 }
 
-/// World to view: a turn from a quaternion, about an eye.
+/// World to view: a rotation by a quaternion, about an eye.
 fn view(quaternion: [f64; 4], eye: [f64; 3]) -> Matrix {
     let length = quaternion.iter().map(|q| q * q).sum::<f64>().sqrt();
     let [a, b, c, d] = quaternion.map(|q| q / length);
@@ -113,7 +112,7 @@ fn frustum(m: Matrix, clip: ClipSpace) -> Result<MatrixFrustum, FrustumError> {
     ViewProjection::new(m, MatrixLayout::RowMajorColumnVectors).frustum(clip)
 }
 
-/// The same after rounding each entry to `f32`.
+/// The frustum of the matrix with each entry rounded to `f32`.
 fn frustum32(m: Matrix, clip: ClipSpace) -> Result<MatrixFrustum, FrustumError> {
     let m = m.map(|row| row.map(f32::from_f64));
     ViewProjection::new(m, MatrixLayout::RowMajorColumnVectors).frustum(clip)
@@ -179,7 +178,7 @@ fn f32_over_twelve_decades() {
         let (near, far) = depths(&frustum32(m, clip).unwrap().frustum);
         assert!(near_to(near, 1e-6, 2e-7), "{clip:?}: {near}");
         if clip == ClipSpace::ZERO_TO_ONE.reversed() {
-            // Here alone the far distance has an entry of its own.
+            // Only here does the far distance have an entry of its own.
             assert!(near_to(far.unwrap(), 1e6, 2e-7));
         } else {
             // 1 + 1e-12 is 1 in f32: the matrix has no far plane.
@@ -189,7 +188,7 @@ fn f32_over_twelve_decades() {
     for clip in SPACES {
         let m = perspective(clip, 1.0, 1.0, 0.0, 1e-6, 1e6);
         let (near, far) = depths(&frustum(m, clip).unwrap().frustum);
-        // Far sits in 12 of 16 digits, except reversed from 0 to 1.
+        // The far distance affects the last 4 of 16 digits, except reversed from 0 to 1.
         assert!(
             near_to(near, 1e-6, 1e-15) && near_to(far.unwrap(), 1e6, 1e-3),
             "{clip:?}"
@@ -198,7 +197,7 @@ fn f32_over_twelve_decades() {
 }
 
 #[test]
-fn orthographic_near_is_where_it_was_put() {
+fn orthographic_near_and_far_are_at_their_distances() {
     for clip in SPACES {
         let m = orthographic(clip, 10.0, 5.0, 1.0, 200.0);
         for (found, bound) in [(frustum(m, clip), 1e-13), (frustum32(m, clip), 1e-4)] {
@@ -223,7 +222,7 @@ fn orthographic_near_is_where_it_was_put() {
 }
 
 #[test]
-fn the_wrong_convention_is_named_where_it_can_be() {
+fn a_wrong_convention_is_detected_if_possible() {
     use FrustumError as E;
     let finite = |clip| perspective(clip, 1.0, 1.0, 0.0, 1.0, 100.0);
     let reversed = ClipSpace::ZERO_TO_ONE.reversed();
@@ -231,9 +230,9 @@ fn the_wrong_convention_is_named_where_it_can_be() {
     assert!(matches!(got, Err(E::NoNearPlane { .. })), "{got:?}");
     let got = frustum(finite(ClipSpace::ZERO_TO_ONE), reversed);
     assert!(matches!(got, Err(E::NoNearPlane { .. })), "{got:?}");
-    // A -1..1 matrix read as 0..1 has its near plane at about twice, one of
-    // 0..1 read as -1..1 at half the distance: a frustum, only not the one
-    // meant. That is why the convention has no default.
+    // A -1..1 matrix read as 0..1 has its near plane at about twice the distance, a 0..1
+    // matrix read as -1..1 at half of it: a valid frustum, but not the intended one. That
+    // is why the convention has no default.
     let (near, _) = depths(
         &frustum(finite(ClipSpace::OPENGL), ClipSpace::ZERO_TO_ONE)
             .unwrap()
@@ -249,7 +248,7 @@ fn the_wrong_convention_is_named_where_it_can_be() {
 }
 
 #[test]
-fn nonsense_is_named() {
+fn each_invalid_matrix_has_its_own_error() {
     use FrustumError as E;
     let clip = ClipSpace::ZERO_TO_ONE;
     let good = perspective(clip, 1.0, 1.0, 0.0, 1.0, 100.0);
@@ -272,28 +271,28 @@ fn nonsense_is_named() {
     );
     let negated = error(&|m| *m = m.map(|row| row.map(|e| -e)));
     assert!(matches!(negated, E::NoNearPlane { .. }), "{negated:?}");
-    // A clip plane for a mirror in place of the near plane.
+    // An oblique clip plane, as for a mirror, in place of the near plane.
     let oblique = error(&|m| m[2] = [0.3, 0.1, -1.0, -1.0]);
     assert!(matches!(oblique, E::TiltedDepth { .. }), "{oblique:?}");
-    // Far behind the eye: Z = 2 W - ... never reaches below 0 ahead.
+    // The far plane is behind the eye.
     let behind = error(&|m| m[2] = [0.0, 0.0, -0.5, -1.0]);
     assert!(matches!(behind, E::FarBehindEye { .. }), "{behind:?}");
 }
 
 #[test]
 fn a_tilted_far_plane_is_reported() {
-    // A tilt that f32 rounding could cause: 1e-6 of W, where the far plane
-    // hangs on 1 - 1.001 of it.
+    // A tilt that f32 rounding could cause: 1e-6 of W, while the far plane depends on
+    // 1 - 1.001 of it.
     let clip = ClipSpace::ZERO_TO_ONE;
     let mut m = perspective(clip, 1.0, 1.0, 0.0, 1.0, 1001.0);
     m[2][0] = 1e-6;
     let found = frustum32(m, clip).unwrap();
     let Deviation { sides, near, far } = found.deviation;
     assert!(sides == 0.0 && near_to(near, 1e-6, 1e-2) && near_to(far, 1e-3, 1e-2));
-    // In f64 it is not rounding.
+    // In f64 rounding does not explain it.
     let got = frustum(m, clip);
     assert!(matches!(got, Err(FrustumError::TiltedDepth { .. })));
-    // Where the far plane is at infinity, the tilt brings it to W = 1e6.
+    // If the far plane is at infinity, the tilt moves it to W = 1e6.
     let mut m = perspective(clip, 1.0, 1.0, 0.0, 1.0, f64::INFINITY);
     m[2][0] = 1e-6;
     let found = frustum32(m, clip).unwrap();
@@ -307,7 +306,8 @@ fn a_tilted_far_plane_is_reported() {
 
 #[test]
 fn the_eye_is_rounded_and_nothing_else() {
-    // Thirds in the eye: half an ulp of it, relative to the near distance.
+    // An eye with coordinates that are not representable: the deviation is half an ulp of
+    // it, relative to the near distance.
     let clip = ClipSpace::ZERO_TO_ONE;
     let turn = view([1.0, 2.0, 3.0, 4.0], [1e6 / 3.0, 2e6 / 3.0, -1e6 / 7.0]);
     let m = product(perspective(clip, 1.0, 1.0, 0.0, 1e-3, f64::INFINITY), turn);
@@ -339,7 +339,7 @@ fn layouts() {
 }
 
 #[test]
-fn vulkan_tells_top_from_bottom() {
+fn vulkan_swaps_top_and_bottom() {
     let mut m = perspective(ClipSpace::ZERO_TO_ONE, 1.0, 1.0, 0.0, 1.0, 2.0);
     let up = frustum(m, ClipSpace::ZERO_TO_ONE).unwrap();
     m[1] = m[1].map(|e| 0.0 - e);
@@ -403,7 +403,8 @@ proptest! {
         let far = near * 10_f64.powi(ratio_exponent);
         let m = product(perspective(clip, w, h, shift, near, far), view(quaternion, eye));
         let found = frustum(m, clip).unwrap();
-        // The point comes back through 100 / near as much as the eye is away.
+        // The rounding error of the projected point grows with the eye's distance, up to
+        // 100 / near.
         let noise = 1e-12 * (1.0 + 100.0 / near) * (1.0 + 1.0 / w + 1.0 / h);
         check_corners(&m, clip, &found, noise)?;
         prop_assert!(found.deviation.sides < noise && found.deviation.near < noise);
@@ -418,13 +419,13 @@ proptest! {
     }
 
     #[test]
-    fn any_matrix_is_right_or_refused(entries in prop::array::uniform16(prop_oneof![
+    fn any_matrix_is_right_or_an_error(entries in prop::array::uniform16(prop_oneof![
             any::<u64>().prop_map(f64::from_bits), -2.0..2.0,
             prop::sample::select(vec![0.0, 0.0, 0.0, 1.0, -1.0, 1e300, 1e-160, 5e-324, f64::MAX])]),
         shaped in any::<bool>(), space in 0usize..4) {
         let mut m: Matrix = std::array::from_fn(|i| std::array::from_fn(|j| entries[4 * i + j]));
         if shaped {
-            // Depth along W, which random rows never are.
+            // Depth along W: random rows never have it.
             m[2] = [0.0, 0.0, m[2][2], m[2][3]];
             m[3] = [0.0, 0.0, m[3][2], m[3][3]];
         }

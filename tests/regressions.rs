@@ -1,4 +1,4 @@
-//! Inputs that once went wrong, verbatim; each test opens with what it was.
+//! Inputs that once gave wrong answers, verbatim, each with its cause.
 
 use frusta::{
     Accuracy, Class, Direction, EndRect, Face, FaceSet, Frustum, LiangBarsky, LiangBarskyVariant,
@@ -8,9 +8,9 @@ use frusta_lab::check::assert_guarantees;
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
 
-/// Found by the fuzz target `plain`. All of its numbers but slopes are zero:
-/// the logarithm of its size, in the search for a lattice, was minus infinity,
-/// and taking 25 from the integer made of that overflowed.
+/// Found by the fuzz target `plain`. All numbers except the slopes are zero: the logarithm
+/// of the size, in the search for a lattice, was minus infinity, and subtracting 25 from
+/// it as an integer overflowed.
 #[test]
 fn an_infinite_pyramid_from_the_origin_has_no_size() {
     let shape = Shape::Infinite {
@@ -28,8 +28,8 @@ fn an_infinite_pyramid_from_the_origin_has_no_size() {
     }
 }
 
-/// Found by the fuzz target `constructors`: with the near end at minus zero,
-/// the vector path gave a hit on it plus zero, the other algorithms minus zero.
+/// Found by the fuzz target `constructors`: with the near end at -0, a hit on it had the `z`
+/// +0 in the vector path and -0 in the other algorithms.
 #[test]
 fn a_near_end_at_minus_zero_is_at_zero() {
     let shape = Shape::Infinite {
@@ -77,7 +77,7 @@ fn no_ties_on_a_tiny_lattice() -> Outcome {
     Ok(())
 }
 
-/// Hits on a near end at -0 had `z` = -0 in one of two equivalent ways only.
+/// Hits on a near end at -0 had `z` = -0 in only one of two equivalent computations.
 #[test]
 fn zeros_on_a_near_end_at_minus_zero_are_positive() -> Outcome {
     let shape = Shape::Finite {
@@ -105,10 +105,10 @@ fn zeros_on_a_near_end_at_minus_zero_are_positive() -> Outcome {
     Ok(())
 }
 
-/// A crossing at exactly zero, from coordinates so small that the bound of the
-/// error rounds to zero in `f32`, came out as -0.
+/// A crossing at exactly zero had a coordinate of -0, if the coordinates were so small that
+/// the error bound rounds to zero in `f32`.
 #[test]
-fn nearest_zeros_of_tiny_single_segments_are_positive() -> Outcome {
+fn nearest_zeros_of_tiny_f32_segments_are_positive() -> Outcome {
     let shape = Shape::Finite {
         near: EndRect::new(1.0, -4.0, 4.0, -4.0, 4.0),
         far: EndRect::new(3.0, -4.0, 4.0, -4.0, 4.0),
@@ -122,8 +122,8 @@ fn nearest_zeros_of_tiny_single_segments_are_positive() -> Outcome {
     Ok(())
 }
 
-/// Found by `frusta verify`. A point interpolated to zero had the sign of the end it was computed from, so
-/// that swapping the ends changed its bits. Zeros of clipped points are positive.
+/// Found by `frusta verify`. A point interpolated to zero had the sign of the end from which it was
+/// computed, so swapping the ends changed its bits. Zeros of clipped points are positive.
 #[test]
 fn zeros_of_clipped_points_do_not_depend_on_the_order_of_the_ends() {
     let infinite = Frustum::new(

@@ -1,5 +1,5 @@
-//! The side predicate against another implementation: the crate `robust`, in
-//! mid-range; and why `robust` alone would not do.
+//! The side predicate compared with another implementation, the crate `robust`, in its
+//! range; and examples for which `robust` alone is not enough.
 
 use frusta::samples::Random;
 use frusta::{Class, EndRect, Face, FaceSet, Frustum, Pose, Segment, Shape, Vec3};
@@ -9,7 +9,7 @@ fn coord([z, x]: [f64; 2]) -> Coord<f64> {
     Coord { x: z, y: x }
 }
 
-/// Positive inside: the orientation of a point to a side of a trapezoid that
+/// Positive inside: the orientation of a point relative to a side of a trapezoid that
 /// goes from `near` to `far`, each `[z, bound]`, with the interior below if
 /// `below`.
 fn side(near: [f64; 2], far: [f64; 2], point: [f64; 2], below: bool) -> f64 {
@@ -22,8 +22,7 @@ fn side(near: [f64; 2], far: [f64; 2], point: [f64; 2], below: bool) -> f64 {
     }
 }
 
-/// The faces that hold a point, by `robust`; `None` if some face has it
-/// outside.
+/// The faces that contain a point, by `robust`; `None` if it is outside of a face.
 fn faces_by_robust(near: EndRect, far: EndRect, p: Vec3<f64>) -> Option<FaceSet> {
     let (n, f) = (near.rect, far.rect);
     let sigma = (far.z - near.z).signum();
@@ -70,7 +69,7 @@ fn points_in_mid_range_are_where_robust_says() {
         let z = random.sign() * random.between(1.0, 9.0);
         let far = rect(&mut random, z);
         let frustum = Frustum::new(Pose::IDENTITY, Shape::Finite { near, far }).unwrap();
-        // Rounded to within an ulp or so of a side, and now and then on it.
+        // Rounding puts it within about an ulp of a side, and sometimes exactly on it.
         let any = random.unit();
         let w = random.pick(&[0.0, 0.25, 0.5, any, 1.0]);
         let mix = |a: f64, b: f64| a * (1.0 - w) + b * w;
@@ -107,7 +106,7 @@ fn class_of_point(frustum: &Frustum, p: [f64; 3]) -> Class {
     frustum.clip_segment(&Segment::new(p, p)).unwrap().class
 }
 
-/// Points inside, on and outside the wedge of this size are told apart.
+/// Asserts that points inside, on and outside the wedge of this size have the right classes.
 #[track_caller]
 fn assert_wedge_is_decided(s: f64) {
     let frustum = wedge(s);

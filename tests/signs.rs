@@ -1,12 +1,12 @@
-//! Segments for which a sign test must be just as it is: each is answered wrongly
-//! if one bound of its error is left out (see `scripts/mutants`).
+//! Segments that need a term of an error bound: each has a wrong answer if one term of a sign
+//! test is omitted (see `scripts/mutants`).
 
 use frusta::samples::Random;
 use frusta::{Direction, EndRect, Face, FaceSet, Frustum, Pose, Rect, Segment, Shape, Vec3};
 use frusta_lab::check::assert_guarantees;
 
-/// Segments through the edge of near and left, or past it closely, that cross near at a
-/// small angle: its crossing is the less certain one.
+/// Segments through or near the edge of near and left that cross near at a small angle: its
+/// crossing is the less certain one.
 #[test]
 fn a_near_end_far_out() {
     let mut random = Random::new(&[1]);
@@ -32,7 +32,7 @@ fn a_near_end_far_out() {
     }
 }
 
-/// Near and far are an ulp apart, their crossings' parameters closer than that.
+/// Near and far are an ulp apart, and the parameters of their crossings are closer than that.
 #[test]
 fn ends_an_ulp_apart() {
     let mut random = Random::new(&[2]);
@@ -51,7 +51,7 @@ fn ends_an_ulp_apart() {
 
 /// Differences of the ends overflow.
 #[test]
-fn segments_as_long_as_doubles_reach() {
+fn segments_as_long_as_the_range_of_f64() {
     let mut random = Random::new(&[3]);
     let shape = Shape::Finite {
         near: EndRect::new(1.0, -1.0, 1.0, -1.0, 1.0),
@@ -59,7 +59,7 @@ fn segments_as_long_as_doubles_reach() {
     };
     let frustum = Frustum::new(Pose::IDENTITY, shape).unwrap();
     for i in 0..500 {
-        // Opposite ends of a line through the frustum, about.
+        // Approximately opposite ends of a line through the frustum.
         let scale = [1.0, 0.9, 0.5, 0.2][i % 4] * f64::MAX;
         let v = [0, 1, 2].map(|_| scale * random.between(-1.0, 1.0));
         let near = |x: f64| -x * (1.0 + 1e-16 * random.between(-0.5, 0.5));
@@ -94,9 +94,8 @@ fn an_apex_below_the_range_of_products() {
     }
 }
 
-/// Two sides are crossed at exactly the same point, which comes out of double-double
-/// with errors: large ones at the far start, where one side is much closer than the
-/// other.
+/// Two sides are crossed at exactly the same point. Double-double arithmetic computes it with
+/// errors, large ones at the far start, where one side is much closer than the other.
 #[test]
 fn a_tie_seen_from_far_away() {
     let mut random = Random::new(&[5]);

@@ -1,11 +1,11 @@
-//! Sums of two doubles: about 106 bits, with a small relative error.
+//! Double-double arithmetic: sums of two `f64`, about 106 bits, with a small relative error.
 //!
 //! Sources: Dekker (1971); error bounds from Joldes, Muller, Popescu, "Tight
 //! and rigorous error bounds for basic building blocks of double-word
 //! arithmetic" (2017), with u = 2^-53: `add` 3 u^2 + 13 u^3, `mul` 7 u^2,
 //! `mul_f64` 3 u^2, `div` 15 u^2 + 56 u^3, each relative to the result,
-//! wherever nothing overflows or underflows. `div` forms its remainder by `add`,
-//! no less precisely than theirs; `proofs/double_double.gappa` has its bound.
+//! unless something overflows or underflows. `div` computes its remainder by `add`,
+//! no less precisely than theirs; `proofs/double_double.gappa` proves its bound.
 
 use super::float::{fast_two_sum, two_diff, two_prod, two_sum};
 

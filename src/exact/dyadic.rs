@@ -1,7 +1,8 @@
-//! Integers times powers of two: every finite double, every sum and product.
+//! Integers times powers of two: every finite `f64`, every sum and product.
 //!
-//! No exponent limits, no greatest common divisors. Allocates; reached only
-//! when expansions have no room or the exponents leave their safe range.
+//! There is no limit of the exponent and no reduction by common divisors. The numbers
+//! allocate; decisions reach them only if an expansion overflows or the exponents leave
+//! its safe range.
 
 use super::Number;
 use super::float::{decompose, exp2};
@@ -21,6 +22,15 @@ impl Dyadic {
     pub(crate) fn abs(self) -> Self {
         if self.mantissa.sign() == Sign::Negative {
             self.neg()
+        } else {
+            self
+        }
+    }
+
+    /// The larger of two numbers.
+    pub(crate) fn max(self, other: Self) -> Self {
+        if (&self - &other).sign() == Ordering::Less {
+            other
         } else {
             self
         }
@@ -83,7 +93,7 @@ fn round_ratio<T: Real>(n: UBig, d: UBig, exponent: i32) -> f64 {
 /// `(quotient + some of one unit if inexact) * 2^unit`, rounded.
 fn round_units<T: Real>(quotient: u64, inexact: bool, unit: i32, least: i32) -> f64 {
     let length = (u64::BITS - quotient.leading_zeros()).cast_signed();
-    // How many low bits do not fit.
+    // Number of low bits that do not fit.
     let drop = (length - T::DIGITS.cast_signed()).max(least - unit).max(0);
     let kept = quotient >> drop;
     let rest = quotient & ((1_u64 << drop) - 1);
@@ -150,7 +160,7 @@ impl From<f64> for Dyadic {
     }
 }
 
-// Operators beside the methods of `Number`: here nothing can be without room.
+// Operators beside the methods of `Number`: nothing overflows here.
 
 impl std::ops::Add for &Dyadic {
     type Output = Dyadic;

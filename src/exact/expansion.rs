@@ -1,44 +1,42 @@
-//! Sums of a few doubles that do not overlap: exact arithmetic on the stack.
+//! Sums of a few `f64` components that do not overlap: exact arithmetic on the stack.
 //!
 //! Source: Shewchuk, "Adaptive precision floating-point arithmetic and fast
-//! robust geometric predicates" (1997). Components are kept in order of
-//! growing magnitude, without zeros and without common bits.
+//! robust geometric predicates" (1997). Components are in order of increasing
+//! magnitude, without zeros and without common bits.
 //!
-//! Everything is built from one step, adding a double to an expansion
+//! Everything is built from one step, the addition of one component to an expansion
 //! (Shewchuk's GROW-EXPANSION, theorem 10), which is right for any expansion
 //! without overlap. The linear-time merges need stronger properties of their
-//! input, and at two to eight components they are not faster.
+//! input, and for two to eight components they are not faster.
 //!
-//! Exact as long as no product has bits below 2^-1074 and nothing overflows:
-//! the caller checks the range of its input ([`in_safe_range`]). A result of
-//! more than [`CAPACITY`] components is refused.
+//! The results are exact as long as no product has bits below 2^-1074 and nothing
+//! overflows: the caller checks the range of its input ([`in_safe_range`]). A result
+//! of more than [`CAPACITY`] components is an [`Overflow`].
 
 use super::Number;
-use super::float::{fast_two_sum, two_diff, two_prod, two_sum};
+use super::float::{exp2, fast_two_sum, two_diff, two_prod, two_sum};
 use std::cmp::Ordering;
 
 /// The most components an expansion can have.
 pub(crate) const CAPACITY: usize = 12;
 
-/// Whether a double may enter a polynomial of degree 6: zero, or of magnitude
-/// 2^-125 .. 2^150. Six factors then have no bit below 2^(-6*(125+52)) > 2^-1074
-/// and no sum of them reaches 2^1000.
+/// Whether a value may enter a polynomial of degree 6: it is zero, or its magnitude is in
+/// 2^-125 .. 2^150. Six factors then have no bit below 2^(-6 (125 + 52)) = 2^-1062 > 2^-1074,
+/// and no sum of such products reaches 2^1000.
 #[inline]
 pub(crate) fn in_safe_range(value: f64) -> bool {
     let magnitude = value.abs();
-    magnitude == 0.0 || (LEAST..MOST).contains(&magnitude)
+    magnitude == 0.0 || (LEAST_SAFE_MAGNITUDE..SAFE_MAGNITUDE_LIMIT).contains(&magnitude)
 }
 
-/// 2^-125.
-const LEAST: f64 = 2.350988701644575e-38;
-/// 2^150.
-const MOST: f64 = 1.42724769270596e45;
+const LEAST_SAFE_MAGNITUDE: f64 = exp2(-125);
+const SAFE_MAGNITUDE_LIMIT: f64 = exp2(150);
 
-/// A result would have more than [`CAPACITY`] components.
+/// The error for a result of more than [`CAPACITY`] components.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Overflow;
 
-/// An exact sum of doubles.
+/// An exact sum of `f64` components.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Expansion {
     len: usize,
@@ -55,7 +53,7 @@ impl Expansion {
         &self.parts[..self.len]
     }
 
-    /// Adds one double.
+    /// Adds one component.
     fn grow(&mut self, value: f64) -> Result<(), Overflow> {
         let mut carry = value;
         let mut kept = 0;
@@ -75,8 +73,8 @@ impl Expansion {
         Ok(())
     }
 
-    /// The same value in as few components as possible; the last one then is
-    /// the value within one unit in its last place (Shewchuk's COMPRESS).
+    /// Reduces the number of components without changing the value; the last one is then
+    /// within one unit in its last place of the value (Shewchuk's COMPRESS).
     fn compress(&mut self) {
         if self.len < 2 {
             return;
@@ -109,7 +107,7 @@ impl Expansion {
         self.len = if carry == 0.0 { kept } else { kept + 1 };
     }
 
-    /// The value with a relative error of at most `u (1 + 4 u)`.
+    /// The value, with a relative error of at most `u (1 + 4 u)`.
     pub(crate) fn estimate(&self) -> f64 {
         self.parts().iter().fold(0.0, |sum, part| sum + part)
     }
@@ -145,7 +143,7 @@ impl Number for Expansion {
     }
 
     fn mul(&self, other: &Self) -> Result<Self, Overflow> {
-        // Many components: the big integers are faster.
+        // For more components, big integers are faster.
         if 2 * self.len * other.len > CAPACITY {
             return Err(Overflow);
         }

@@ -1,16 +1,16 @@
-//! Error-free transformations: a rounded result and what the rounding lost.
+//! Error-free transformations: a rounded result and its rounding error.
 //!
-//! Sources: Dekker (1971), Knuth (TAOCP 2, 4.2.2), Shewchuk (1997). Exact
-//! wherever nothing overflows and no product's low part underflows. No fused
-//! multiply-add: the same bits on every machine.
+//! Sources: Dekker (1971), Knuth (TAOCP 2, 4.2.2), Shewchuk (1997). They are exact
+//! unless something overflows or the low part of a product underflows. None uses a
+//! fused multiply-add, so the bits are the same on every machine.
 
 #[cfg(all(target_arch = "x86", not(target_feature = "sse2")))]
-compile_error!("x87 registers hold more bits than a double: frusta needs SSE2 on 32-bit x86");
+compile_error!("x87 registers have more bits than an f64: frusta needs SSE2 on 32-bit x86");
 
 use std::ops::{Add, Mul, Sub};
 use wide::f64x2;
 
-/// A double, or several side by side in a vector register: every operation acts
+/// An `f64`, or several side by side in a vector register: every operation acts
 /// on each, with the same bits.
 pub(crate) trait Lanes:
     Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self>
@@ -21,8 +21,8 @@ pub(crate) trait Lanes:
     /// Magnitudes.
     fn abs(self) -> Self;
 
-    /// What rounding took from the product `p = a * b`, exactly, with the halves
-    /// of `a`, this, known.
+    /// The exact rounding error of the product `p = a * b`, given the halves of `a`,
+    /// which is `self`.
     #[inline(always)]
     fn product_rest(self, (ah, al): (Self, Self), b: Self, p: Self) -> Self {
         let (bh, bl) = split(b);
@@ -54,16 +54,16 @@ impl Lanes for f64x2 {
     }
 }
 
-/// Makes registers of N numbers.
+/// A register width of N lanes.
 pub(crate) trait Width<const N: usize>: Copy {
-    /// What it makes.
+    /// The register type.
     type Lanes: Lanes;
 
-    /// These numbers side by side.
+    /// A register of these values.
     fn lanes(self, values: [f64; N]) -> Self::Lanes;
 }
 
-/// One number.
+/// One lane.
 #[derive(Clone, Copy)]
 pub(crate) struct Single;
 
@@ -76,7 +76,7 @@ impl Width<1> for Single {
     }
 }
 
-/// Two numbers.
+/// Two lanes.
 #[derive(Clone, Copy)]
 pub(crate) struct Pair;
 
@@ -89,7 +89,7 @@ impl Width<2> for Pair {
     }
 }
 
-/// `a + b` rounded, and the rest: `s + e = a + b`.
+/// `a + b` rounded, and the rounding error: `s + e = a + b`.
 #[inline(always)]
 pub(crate) fn two_sum<F: Lanes>(a: F, b: F) -> (F, F) {
     let s = a + b;
@@ -104,7 +104,7 @@ pub(crate) fn fast_two_sum<F: Lanes>(a: F, b: F) -> (F, F) {
     (s, b - (s - a))
 }
 
-/// `a - b` rounded, and the rest.
+/// `a - b` rounded, and the rounding error.
 #[inline(always)]
 pub(crate) fn two_diff<F: Lanes>(a: F, b: F) -> (F, F) {
     let s = a - b;
@@ -115,7 +115,7 @@ pub(crate) fn two_diff<F: Lanes>(a: F, b: F) -> (F, F) {
 /// 2^27 + 1, which splits 53 bits into 26 and 26 with a sign.
 const SPLITTER: f64 = 134_217_729.0;
 
-/// The upper and the lower half of a double's bits.
+/// The upper and the lower half of the significand, as two values whose sum is `a`.
 #[inline(always)]
 pub(crate) fn split<F: Lanes>(a: F) -> (F, F) {
     let c = a.splat(SPLITTER) * a;
@@ -123,26 +123,26 @@ pub(crate) fn split<F: Lanes>(a: F) -> (F, F) {
     (high, a - high)
 }
 
-/// `a * b` rounded, and the rest: `p + e = a * b`.
+/// `a * b` rounded, and the rounding error: `p + e = a * b`.
 #[inline(always)]
 pub(crate) fn two_prod<F: Lanes>(a: F, b: F) -> (F, F) {
     two_prod_split(a, split(a), b)
 }
 
-/// As [`two_prod`], with the halves of `a`, this, known.
+/// As [`two_prod`], given the halves of `a`.
 #[inline(always)]
 pub(crate) fn two_prod_split<F: Lanes>(a: F, halves: (F, F), b: F) -> (F, F) {
     let p = a * b;
     (p, a.product_rest(halves, b, p))
 }
 
-/// The exponent of a double's lowest set bit; `None` for zero.
+/// The exponent of the lowest set bit; `None` for zero.
 pub(crate) fn lowest_bit(value: f64) -> Option<i32> {
     let (mantissa, exponent) = decompose(value);
     (mantissa != 0).then(|| exponent + mantissa.trailing_zeros().cast_signed())
 }
 
-/// A finite double as `mantissa * 2^exponent`, sign left out.
+/// The magnitude of a finite value as `mantissa * 2^exponent`.
 pub(crate) fn decompose(value: f64) -> (u64, i32) {
     let bits = value.to_bits();
     let fraction = bits & ((1 << 52) - 1);
@@ -154,16 +154,16 @@ pub(crate) fn decompose(value: f64) -> (u64, i32) {
     }
 }
 
-/// The least exponent whose power of two exceeds a positive normal double.
+/// The least exponent whose power of two exceeds a positive normal value.
 pub(crate) fn exponent_above(value: f64) -> i32 {
     decompose(value).1 + 53
 }
 
 /// 2 to an integer power; 0 below the subnormals, infinite above the range.
-pub(crate) fn exp2(exponent: i32) -> f64 {
+pub(crate) const fn exp2(exponent: i32) -> f64 {
     match exponent {
         1024.. => f64::INFINITY,
-        -1022.. => f64::from_bits(u64::from((exponent + 1023).unsigned_abs()) << 52),
+        -1022.. => f64::from_bits(((exponent + 1023) as u64) << 52),
         -1074.. => f64::from_bits(1 << (exponent + 1074)),
         _ => 0.0,
     }
@@ -187,7 +187,7 @@ mod tests {
     }
 
     #[test]
-    fn doubles_come_apart() {
+    fn values_are_decomposed() {
         assert_eq!(lowest_bit(0.0), None);
         assert_eq!(lowest_bit(-6.0), Some(1));
         assert_eq!(lowest_bit(5e-324), Some(-1074));

@@ -1,9 +1,9 @@
 //! Numbers whose sums and products are exact, and correct rounding.
 //!
-//! Knows numbers, not frusta. Three ways, from fast to general:
+//! This module knows numbers, not frusta. It has three number types, from fast to general:
 //! [`double_double`] (106 bits, small known error), [`expansion`] (exact inside
-//! a safe range of exponents, on the stack), [`dyadic`] (exact always, big
-//! integers; the only place that allocates).
+//! a safe range of exponents, on the stack), [`dyadic`] (always exact, big
+//! integers; the only one that allocates).
 
 pub(crate) mod double_double;
 pub(crate) mod dyadic;
@@ -12,14 +12,13 @@ pub(crate) mod float;
 
 use std::cmp::Ordering;
 
-/// A number type in which a polynomial can be evaluated without error, or not
-/// at all.
+/// A number type in which each operation is exact or reports overflow.
 pub(crate) trait Number: Sized {
-    /// Why there is no result: `Infallible` for a type that has room for all.
+    /// The error for a result that does not fit; `Infallible` for an unbounded type.
     type Overflow;
-    /// The value of a double.
+    /// The value of an `f64`.
     fn from_f64(value: f64) -> Self;
-    /// `a - b` of two doubles.
+    /// `a - b`.
     fn difference(a: f64, b: f64) -> Self;
     /// The sum.
     fn add(&self, other: &Self) -> Result<Self, Self::Overflow>;
@@ -27,7 +26,7 @@ pub(crate) trait Number: Sized {
     fn mul(&self, other: &Self) -> Result<Self, Self::Overflow>;
     /// The additive inverse.
     fn neg(self) -> Self;
-    /// The order to zero.
+    /// The order relative to zero.
     fn sign(&self) -> Ordering;
 
     /// `self - other`.

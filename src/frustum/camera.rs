@@ -2,22 +2,22 @@
 //!
 //! The frame's origin is the eye; its axes are *right*, *up* and *forward*, of
 //! unit length, so that frame `z` is the distance along the view direction and
-//! `near` and `far` come through bit for bit. Nothing cancels: the axes come
-//! from the exact cross products of the given doubles, and the rectangles are
-//! slopes times distances, never the entries of a projection matrix, so that
-//! `near = 1e-6`, `far = 1e6` costs no digit. Transcendentals are `libm`'s, for
-//! the same bits on every platform.
+//! `near` and `far` are kept bit for bit. Nothing cancels: the axes are rounded
+//! from exact cross products of the given `f64` values, and the rectangles are
+//! slopes times distances, never entries of a projection matrix, so that
+//! `near = 1e-6`, `far = 1e6` loses no digit. Transcendental functions are those
+//! of `libm`, which gives the same bits on every platform.
 //!
-//! Degenerate input is refused by name. `near = 0` makes a perspective frustum
-//! a pyramid with its apex at the eye; `far = f64::INFINITY` takes the far face
-//! away.
+//! Each kind of degenerate input has an error of its own. `near = 0` makes a
+//! perspective frustum a pyramid with its apex at the eye; `far = f64::INFINITY`
+//! makes an infinite frustum.
 
 use super::eval::exact_vec::{cross, difference, exact, unit};
 use super::{Direction, EndRect, Frustum, FrustumError, Shape};
 use crate::math::{Pose, Rect, Vec3};
 use std::f64::consts::PI;
 
-/// A camera that looks from a point to a point.
+/// A camera, given by its eye, its target and its projection.
 ///
 /// ```
 /// use frusta::{Camera, Projection};
@@ -40,32 +40,34 @@ use std::f64::consts::PI;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Camera {
-    /// Where the camera is, in world units.
+    /// The position of the camera, in world units.
     pub eye: Vec3<f64>,
     /// A point in the middle of the view (for an off-centre rectangle: on the
-    /// line through the eye at right angles to it). Only its direction from
-    /// the eye matters.
+    /// perpendicular to it through the eye). Only its direction from the eye
+    /// matters.
     pub target: Vec3<f64>,
-    /// What points upwards in the picture; any length, and any direction that
-    /// is not exactly the view direction or its opposite.
+    /// A vector that points upwards in the picture, of any length and any direction
+    /// that is not exactly the view direction or its opposite.
     pub up: Vec3<f64>,
-    /// What lies in view.
+    /// The kind of projection, with its extent.
     pub projection: Projection,
     /// Distance of the near face along the view direction, in world units: at
     /// least 0 for [`Projection::Perspective`] (0: a pyramid), above 0 for
     /// [`Projection::OffAxis`], any finite number for the orthographic ones
     /// (below 0: the near face is behind the eye).
     pub near: f64,
-    /// Distance of the far face; above `near`; [`f64::INFINITY`]: none.
+    /// Distance of the far face, above `near`; [`f64::INFINITY`] for an infinite
+    /// frustum.
     pub far: f64,
 }
 
-/// What a camera sees.
+/// The projection of a camera.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum Projection {
     /// Centred perspective.
     Perspective {
-        /// The full vertical angle of view, in radians, `0 < fovy < PI`.
+        /// The full vertical field of view, in radians, `0 < fovy < PI`.
         fovy: f64,
         /// Width over height, above 0.
         aspect: f64,
@@ -95,29 +97,29 @@ impl Camera {
     /// The frustum that the camera sees.
     ///
     /// Error: `near`, `far` and the rectangle of a rectangle projection are
-    /// stored as given. Each axis is within 4 ulp of the exact unit vector a
-    /// coordinate, however close `up` is to the view direction. The sides of
+    /// stored as given. Each coordinate of an axis is within 4 ulp of the exact unit
+    /// vector's, however close `up` is to the view direction. The sides of
     /// [`Projection::Perspective`] are within 4 ulp, those of the far end of
     /// [`Projection::OffAxis`] within 2 (two roundings).
     ///
     /// # Errors
-    /// Each thing that makes no camera has its own variant of
-    /// [`FrustumError`], from [`FrustumError::NonFinite`] to
-    /// [`FrustumError::Underflow`].
+    /// Each kind of invalid input has its own variant of [`FrustumError`], from
+    /// [`FrustumError::NonFinite`] to [`FrustumError::Underflow`].
     pub fn frustum(&self) -> Result<Frustum, FrustumError> {
         self.check_numbers()?;
         let shape = self.shape()?;
         Frustum::new(self.pose()?, shape)
     }
 
-    /// The camera's frame: origin at the eye, unit axes right, up, forward.
+    /// The camera's frame, with its origin at the eye and unit axes right, up, forward.
     ///
     /// The frame is left-handed in a right-handed world (`x` to the right, `y`
     /// up, `z` away from the viewer).
     ///
     /// # Errors
-    /// A number that is not finite; the target at the eye; `up` zero or along
-    /// the view direction.
+    /// [`FrustumError::NonFinite`]; [`FrustumError::EyeIsTarget`];
+    /// [`FrustumError::UpAlongView`] for an `up` that is zero or along the view
+    /// direction.
     pub fn pose(&self) -> Result<Pose, FrustumError> {
         for (point, names) in [
             (self.eye, ["eye.x", "eye.y", "eye.z"]),
@@ -133,7 +135,7 @@ impl Camera {
         let right = cross(&forward, &up);
         let z = unit(&forward).ok_or(FrustumError::EyeIsTarget { eye: self.eye })?;
         let x = unit(&right).ok_or(FrustumError::UpAlongView { up: self.up })?;
-        // Not `None`: two non-zero vectors at a right angle.
+        // Never `None`: both vectors are non-zero and at a right angle.
         let y = unit(&cross(&right, &forward)).ok_or(FrustumError::UpAlongView { up: self.up })?;
         Ok(Pose::new(self.eye, [x, y, z]))
     }
@@ -205,7 +207,7 @@ impl Camera {
         }
     }
 
-    /// From a near rectangle and the slopes that give the far one.
+    /// A near rectangle, and the slopes that give the far one.
     fn grown(&self, near: Rect, slopes: Rect) -> Result<Shape, FrustumError> {
         let near = self.near_end(near);
         Ok(if self.far == f64::INFINITY {
@@ -223,7 +225,7 @@ impl Camera {
         })
     }
 
-    /// The same rectangle all along.
+    /// The same rectangle at every depth.
     fn straight(&self, rect: Rect) -> Result<Shape, FrustumError> {
         let near = self.near_end(rect);
         Ok(if self.far == f64::INFINITY {
@@ -303,12 +305,12 @@ fn map(
     ))
 }
 
-/// `a * b`, unless it leaves the range of doubles.
+/// `a * b`, or an error if it is out of range.
 fn product(a: f64, b: f64, what: &'static str) -> Result<f64, FrustumError> {
     checked(a * b, a == 0.0 || b == 0.0, what)
 }
 
-/// As [`checked`], for what is multiplied further: a subnormal has lost bits.
+/// As [`checked`], for a factor of further products: a subnormal one has lost bits.
 fn factor(value: f64, may_be_zero: bool, what: &'static str) -> Result<f64, FrustumError> {
     if value != 0.0 && value.abs() < f64::MIN_POSITIVE {
         return Err(FrustumError::Underflow { what });
@@ -316,7 +318,7 @@ fn factor(value: f64, may_be_zero: bool, what: &'static str) -> Result<f64, Frus
     checked(value, may_be_zero, what)
 }
 
-/// Refuses what became infinite, and zero where none is due.
+/// An error for an infinite value, and for a zero that must not be one.
 fn checked(value: f64, may_be_zero: bool, what: &'static str) -> Result<f64, FrustumError> {
     if value.is_infinite() {
         Err(FrustumError::Overflow { what })

@@ -1,10 +1,10 @@
 //! A frustum's vertices and planes in the world, rounded.
 //!
-//! For drawing, bounding and plain algorithms. Each coordinate of a vertex is
-//! the exact one, rounded once: Cramer's rule in exact arithmetic and one
-//! division. Planes are exact up to the final scaling to unit length. What
-//! is rounded here serves no exact decision: they are made on the frustum itself or, about balls,
-//! on what is not rounded yet.
+//! They serve drawing, bounding and plain algorithms. Each coordinate of a vertex
+//! is the exact one, rounded once: Cramer's rule in exact arithmetic and one
+//! division. Planes are exact up to the final scaling to unit length. No exact
+//! decision uses a rounded value from here: it starts from the frustum itself or, for
+//! spheres, from the unrounded vertices.
 
 use super::eval::exact_vec::{Dyadic, Dyadic3, Rounded, cross, dot, exact, normalised_by_power};
 use super::{EndRect, Face, Frustum, Shape};
@@ -12,12 +12,12 @@ use crate::math::{Rect, Vec3};
 
 /// The vertices of a frustum, in the world.
 ///
-/// Four at an end, going round: left bottom, right bottom, right top, left top.
+/// Each end has four, in the order left bottom, right bottom, right top, left top.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Corners {
-    /// The near end's vertices; those of an edge or an apex are equal.
+    /// The near end's vertices; at an edge or an apex some or all are equal.
     pub near: [Vec3<f64>; 4],
-    /// What is at the other end.
+    /// The far end's vertices, or the directions of the edges that have no end.
     pub far: FarCorners,
 }
 
@@ -26,22 +26,22 @@ pub struct Corners {
 pub enum FarCorners {
     /// The far end's vertices.
     Points([Vec3<f64>; 4]),
-    /// For an infinite frustum: how each edge goes on from its near vertex, for
-    /// each unit of depth.
+    /// For an infinite frustum: the direction of each edge from its near vertex, per
+    /// unit of depth.
     Directions([Vec3<f64>; 4]),
 }
 
-/// A plane as a function: `normal . p + offset`, the signed distance.
+/// A plane in Hessian normal form: `normal . p + offset` is the signed distance of `p`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Plane {
-    /// A unit vector.
+    /// The unit normal.
     pub normal: Vec3<f64>,
-    /// The value at the world's origin.
+    /// The signed distance of the world's origin.
     pub offset: f64,
 }
 
 impl Plane {
-    /// The signed distance of a point, in plain arithmetic.
+    /// The signed distance of a point, in plain arithmetic; positive inside the frustum.
     #[must_use]
     #[inline]
     pub fn signed_distance(&self, p: Vec3<f64>) -> f64 {
@@ -85,13 +85,14 @@ impl Inverse {
         [0, 1, 2].map(|i| &v[i] + &o[i])
     }
 
-    /// What was multiplied by the determinant, each coordinate rounded once.
+    /// A result of [`Inverse::vector`] or [`Inverse::point`], divided by the determinant;
+    /// each coordinate is rounded once.
     pub(crate) fn rounded(&self, times_determinant: &Dyadic3) -> Vec3<f64> {
         Vec3::from([0, 1, 2].map(|i| times_determinant[i].ratio(&self.determinant)))
     }
 }
 
-/// The corners of an end in the frame, going round.
+/// The corners of an end in the frame, in order around it.
 fn around(end: &EndRect) -> [Dyadic3; 4] {
     let (r, z) = (end.rect, end.z);
     let corners = [
@@ -103,8 +104,8 @@ fn around(end: &EndRect) -> [Dyadic3; 4] {
     corners.map(|corner| corner.map(Dyadic::from))
 }
 
-/// In the frame, the corners of the near end, and those of the far one; of an infinite frustum
-/// the rays.
+/// The corners of the near and the far end in the frame; for an infinite frustum the rays
+/// instead of the far corners.
 pub(crate) fn ends(shape: &Shape) -> [[Dyadic3; 4]; 2] {
     let other = match *shape {
         Shape::Finite { far, .. } => far,
@@ -119,10 +120,10 @@ pub(crate) fn ends(shape: &Shape) -> [[Dyadic3; 4]; 2] {
 }
 
 impl Frustum {
-    /// The vertices, in the world.
+    /// The vertices of the frustum, in the world.
     ///
     /// Error: each coordinate is correctly rounded (half an ulp); one beyond
-    /// the range of doubles is infinite.
+    /// the range of `f64` is infinite.
     ///
     /// ```
     /// use frusta::{EndRect, FarCorners, Frustum, Pose, Shape, Vec3};
@@ -154,11 +155,11 @@ impl Frustum {
     /// The plane of a face, its normal pointing inwards; `None` for the far
     /// face of an infinite frustum.
     ///
-    /// Error: each number within 4 ulp of the exact unit plane's (3.5 u: one
-    /// rounding, the length 1.5, the quotient 1). So a signed distance, itself
-    /// computed with 4 u, is off by at most `8 u (|p| + |offset|)`, and a vertex
-    /// may lie off its own planes by that much; an offset beyond the range of
-    /// doubles is infinite.
+    /// Error: each number is within 4 ulp of the exact unit plane's (3.5 u: one
+    /// rounding, the length 1.5, the quotient 1). The signed distance itself is
+    /// computed within 4 u, so it is off by at most `8 u (|p| + |offset|)`, and a
+    /// vertex may lie off its own planes by that much. An offset beyond the range of
+    /// `f64` is infinite.
     ///
     /// ```
     /// use frusta::{EndRect, Face, Frustum, Pose, Shape, Vec3};
@@ -181,7 +182,7 @@ impl Frustum {
         };
         let normal: Dyadic3 = std::array::from_fn(|i| &(&u[i] * &across) + &(&v[i] * &along));
         let offset = &constant - &dot(&normal, &exact(self.pose().origin));
-        // Not `None`: independent axes, not both coefficients zero.
+        // Never `None`: the axes are independent, and one coefficient is not zero.
         let (n, length, shift) = normalised_by_power(&normal)?;
         Some(Plane {
             normal: Vec3::new(n.x / length, n.y / length, n.z / length),
@@ -189,7 +190,7 @@ impl Frustum {
         })
     }
 
-    /// The planes of all faces there are, in the order of [`Face::ALL`].
+    /// The planes of all faces of the frustum, in the order of [`Face::ALL`].
     pub fn planes(&self) -> impl Iterator<Item = (Face, Plane)> + '_ {
         Face::ALL
             .into_iter()
@@ -313,7 +314,7 @@ mod tests {
 
     #[test]
     fn vertices_are_correctly_rounded() {
-        // Thirds are not doubles; the nearest doubles are literals.
+        // Thirds are not representable; the literals are the nearest values.
         let pose = Pose::new(
             Vec3::default(),
             [[3.0, 0.0, 0.0], [0.0, 3.0, 0.0], [0.0, 0.0, 3.0]].map(Vec3::from),

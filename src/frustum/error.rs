@@ -1,15 +1,15 @@
-//! Everything that can be wrong with a frustum's description.
+//! The error type of all frustum constructors.
 
 use crate::math::{Short, Vec3};
 use std::fmt;
 
-/// Why something is no frustum.
+/// The reason why a description does not define a frustum.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum FrustumError {
     /// A number is infinite or NaN.
     NonFinite {
-        /// Which number.
+        /// The name of the number.
         what: &'static str,
         /// Its value.
         value: f64,
@@ -21,23 +21,23 @@ pub enum FrustumError {
     },
     /// A lower bound is above its upper bound.
     Inverted {
-        /// Which rectangle: `near`, `far`, `slopes`, `rect` (a camera's), `window`.
+        /// The name of the rectangle: `near`, `far`, `slopes`, `rect` (a camera's), `window`.
         end: &'static str,
-        /// Which pair of bounds.
+        /// The pair of bounds, such as `left..right`.
         what: &'static str,
         /// The lower bound.
         low: f64,
         /// The upper bound.
         high: f64,
     },
-    /// Bounds coincide at both ends, so that nothing lies strictly between.
+    /// A pair of bounds coincides at both ends, so that nothing lies strictly between.
     Flat {
-        /// Which pair of bounds.
+        /// The pair of bounds, such as `left..right`.
         what: &'static str,
     },
     /// The three axes do not span space (their exact determinant is zero).
     DependentAxes,
-    /// The camera's target is its eye, so that it looks nowhere.
+    /// The camera's target is its eye, so that there is no view direction.
     EyeIsTarget {
         /// The common point.
         eye: Vec3<f64>,
@@ -47,7 +47,7 @@ pub enum FrustumError {
         /// The camera's `up`.
         up: Vec3<f64>,
     },
-    /// The field of view is not between 0 and `PI` radians.
+    /// The field of view is not strictly between 0 and `PI` radians.
     FieldOfView {
         /// The full vertical angle, in radians.
         fovy: f64,
@@ -67,7 +67,7 @@ pub enum FrustumError {
         /// The near distance.
         near: f64,
     },
-    /// A rectangle at distance 0 gives no off-axis perspective.
+    /// The rectangle of an off-axis perspective is at distance 0.
     OffAxisAtEye,
     /// The far distance is not greater than the near distance.
     FarNotBeyondNear {
@@ -76,26 +76,26 @@ pub enum FrustumError {
         /// The far distance.
         far: f64,
     },
-    /// A computed number is too large for a double.
+    /// A computed number is too large for an `f64`.
     Overflow {
-        /// What was computed.
+        /// The name of the computed number.
         what: &'static str,
     },
-    /// A computed number that is not zero is too small for a double to hold in full.
+    /// A computed number is not zero, but too close to it for an `f64` of full precision.
     Underflow {
-        /// What was computed.
+        /// The name of the computed number.
         what: &'static str,
     },
-    /// Two points that must differ do not.
+    /// Two points that must differ are the same.
     SamePoint {
         /// Their names.
         what: [&'static str; 2],
-        /// Where they are.
+        /// Their common position.
         at: Vec3<f64>,
     },
-    /// Two edges that must be at a right angle are not.
+    /// Two edges that must be at a right angle are at another one.
     Skew {
-        /// The points the edges lead to from their centres.
+        /// The names of the points to which the edges lead from their centres.
         what: [&'static str; 2],
         /// The cosine of their angle.
         cosine: f64,
@@ -105,45 +105,44 @@ pub enum FrustumError {
         /// The point's name.
         what: &'static str,
     },
-    /// The picture has no such tile.
+    /// The tile's column or row is beyond the last one.
     NoSuchTile {
-        /// The column asked for.
+        /// The requested column, counted from 0.
         column: u32,
-        /// The row asked for.
+        /// The requested row, counted from 0.
         row: u32,
-        /// How many columns there are.
+        /// Number of columns.
         columns: u32,
-        /// How many rows there are.
+        /// Number of rows.
         rows: u32,
     },
-    /// Two eyes cannot converge at their own distance.
+    /// The distance of convergence is 0 or NaN.
     Convergence {
-        /// The distance asked for.
+        /// The requested distance.
         convergence: f64,
     },
-    /// Not an invertible view-projection matrix: clip coordinates do not
-    /// determine the point (exactly).
+    /// The matrix is exactly singular: clip coordinates do not determine the point.
     SingularMatrix,
-    /// An orthographic matrix whose `W` is not positive, so that nothing is in
+    /// The `W` of an orthographic matrix is not positive, so that nothing is in
     /// view.
     NegativeW {
         /// The constant `W`.
         w: f64,
     },
-    /// A matrix whose near and far planes are not parallel to its picture.
+    /// The near and far planes of the matrix are not parallel to its picture.
     TiltedDepth {
         /// The sine of the angle between the `Z` and the `W` row.
         sine: f64,
     },
-    /// A matrix whose near plane is not in front of the eye: a wrong depth
-    /// range or reversal, or a negated matrix.
+    /// The near plane of the matrix is not in front of the eye. The cause is a
+    /// wrong depth range or reversal, or a negated matrix.
     NoNearPlane {
-        /// Where the bound for the near plane is met, as clip `W`.
+        /// The clip `W` of the near plane.
         w: f64,
     },
-    /// A matrix whose far plane is behind the eye by more than rounding can do.
+    /// The far plane of the matrix is behind the eye, by more than rounding explains.
     FarBehindEye {
-        /// Where the bound for the far plane is met, as clip `W`.
+        /// The clip `W` of the far plane.
         w: f64,
     },
 }
@@ -159,7 +158,7 @@ impl FrustumError {
 }
 
 impl fmt::Display for FrustumError {
-    // Long because it has one arm a variant.
+    // Long, with one arm for each variant.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::NonFinite { what, value } => {
@@ -216,11 +215,11 @@ impl fmt::Display for FrustumError {
             }
             Self::NearBehindEye { near } => write!(
                 f,
-                "near is {}; a perspective camera needs it at 0 or beyond",
+                "near is {}; for a perspective camera it must be 0 or greater",
                 Short(*near)
             ),
             Self::OffAxisAtEye => {
-                f.write_str("near is 0; an off-axis rectangle needs a near distance above 0")
+                f.write_str("near is 0; for an off-axis rectangle it must be greater than 0")
             }
             Self::FarNotBeyondNear { near, far } => {
                 write!(
@@ -230,9 +229,9 @@ impl fmt::Display for FrustumError {
                     Short(*near)
                 )
             }
-            Self::Overflow { what } => write!(f, "{what} is too large for a double"),
+            Self::Overflow { what } => write!(f, "{what} is too large for an f64"),
             Self::Underflow { what } => {
-                write!(f, "{what} is too close to zero for a double")
+                write!(f, "{what} is too close to zero for an f64")
             }
             Self::SamePoint { what: [a, b], at } => {
                 write!(f, "{a} and {b} are both {at}; they must differ")
@@ -255,11 +254,11 @@ impl fmt::Display for FrustumError {
                 rows,
             } => write!(
                 f,
-                "tile {column}, {row} is not among {columns} by {rows}, counted from 0"
+                "there is no tile {column}, {row} in {columns} by {rows} tiles, counted from 0"
             ),
             Self::Convergence { convergence } => write!(
                 f,
-                "the convergence is at {}; it must be a number other than 0",
+                "the convergence is {}; it must be a number other than 0",
                 Short(*convergence)
             ),
             Self::SingularMatrix => f.write_str("the matrix is singular"),

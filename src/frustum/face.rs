@@ -10,22 +10,22 @@ use std::ops::{BitOr, BitOrAssign};
 #[cfg_attr(feature = "serde", serde(rename_all = "lowercase"))]
 #[repr(u8)]
 pub enum Face {
-    /// Where depth is zero.
+    /// The face at depth zero.
     Near,
-    /// Where depth is greatest; an infinite frustum has none.
+    /// The face at the greatest depth; an infinite frustum has none.
     Far,
-    /// The side of smaller frame `x`.
+    /// The side at smaller frame `x`.
     Left,
-    /// The side of larger frame `x`.
+    /// The side at larger frame `x`.
     Right,
-    /// The side of smaller frame `y`.
+    /// The side at smaller frame `y`.
     Bottom,
-    /// The side of larger frame `y`.
+    /// The side at larger frame `y`.
     Top,
 }
 
 impl Face {
-    /// All six, in the order that decides ties.
+    /// All six faces, in the order in which ties are broken.
     pub const ALL: [Face; 6] = [
         Face::Near,
         Face::Far,
@@ -54,7 +54,7 @@ impl fmt::Display for Face {
 /// A set of faces.
 ///
 /// Displays as names joined by `+`, in the order of [`Face::ALL`]; the empty
-/// set as nothing. With `serde` it is a list of names.
+/// set as an empty text. With `serde` it is a list of names.
 ///
 /// ```
 /// use frusta::{Face, FaceSet};
@@ -69,17 +69,17 @@ impl fmt::Display for Face {
 pub struct FaceSet(u8);
 
 impl FaceSet {
-    /// No face.
+    /// The empty set.
     pub const EMPTY: FaceSet = FaceSet(0);
 
-    /// From bits, bit `i` for `Face::ALL[i]`; higher bits are ignored.
+    /// Creates a set from bits, bit `i` for `Face::ALL[i]`; higher bits are ignored.
     #[must_use]
     #[inline(always)]
     pub const fn from_bits(bits: u8) -> Self {
         FaceSet(bits & 0x3f)
     }
 
-    /// Bit `i` for `Face::ALL[i]`.
+    /// The set as bits, bit `i` for `Face::ALL[i]`.
     #[inline(always)]
     pub const fn bits(self) -> u8 {
         self.0
@@ -97,7 +97,7 @@ impl FaceSet {
         self.0 |= 1 << face as u8;
     }
 
-    /// Takes a face away.
+    /// Removes a face.
     #[inline(always)]
     pub const fn remove(&mut self, face: Face) {
         self.0 &= !(1 << face as u8);
@@ -124,13 +124,13 @@ impl FaceSet {
         FaceSet(self.0 & !other.0)
     }
 
-    /// Whether there is no face in it.
+    /// Whether the set is empty.
     #[inline(always)]
     pub const fn is_empty(self) -> bool {
         self.0 == 0
     }
 
-    /// How many faces are in it.
+    /// Number of faces in the set.
     pub const fn len(self) -> usize {
         self.0.count_ones() as usize
     }
@@ -142,7 +142,7 @@ impl FaceSet {
         FaceSetIter(self)
     }
 
-    /// The first face in the order of [`Face::ALL`].
+    /// The first face of the set in the order of [`Face::ALL`]; `None` if it is empty.
     #[inline(always)]
     pub fn first(self) -> Option<Face> {
         Face::ALL.get(self.0.trailing_zeros() as usize).copied()

@@ -1,10 +1,9 @@
-//! Whether three vectors span space, exactly.
+//! Exact linear independence of three vectors.
 //!
-//! A filter first: each vector scaled by a power of two (which changes no
-//! sign), the determinant and the sum of its terms' magnitudes in floating
-//! point. Terms of at most three products and five sums err by less than
-//! `8 u` times that sum, plus what underflows. What the filter does not settle
-//! goes to integers.
+//! A filter first: the determinant and the sum of its terms' magnitudes in floating
+//! point. Each of the six terms has at most three products and takes part in at
+//! most five sums, so the determinant errs by less than `8 u` times that sum, plus
+//! underflow. If the filter does not decide, integers do.
 
 use super::eval::exact_vec::{Rounded, cross, dot, exact};
 use crate::math::Vec3;
@@ -21,7 +20,7 @@ pub(super) fn independent(axes: &[Vec3<f64>; 3]) -> bool {
 /// True only if the determinant is not zero.
 fn certainly_independent(axes: &[Vec3<f64>; 3]) -> bool {
     let largest = |v: Vec3<f64>| v.x.abs().max(v.y.abs()).max(v.z.abs());
-    // Out of this range, products could leave it.
+    // With coordinates outside of this range, products could overflow or underflow.
     if !axes.iter().all(|&v| (1e-90..1e90).contains(&largest(v))) {
         return false;
     }
@@ -31,8 +30,8 @@ fn certainly_independent(axes: &[Vec3<f64>; 3]) -> bool {
     let sum = ma.x * (mb.y * mc.z + mb.z * mc.y)
         + ma.y * (mb.z * mc.x + mb.x * mc.z)
         + ma.z * (mb.x * mc.y + mb.y * mc.x);
-    // 1e-200 covers underflow: at most twelve products lose 5e-324 each, times
-    // a factor below 1e90.
+    // 16 EPSILON = 32 u is four times the bound, which covers the sum's own rounding. 1e-200
+    // covers underflow: at most twelve products lose 5e-324 each, times a factor below 1e90.
     a.dot(b.cross(c)).abs() > 16.0 * f64::EPSILON * sum + 1e-200
 }
 
@@ -61,7 +60,7 @@ mod tests {
         let next = 1.0_f64.next_up();
         let close = axes([[1.0, 1.0, 1.0], [1.0, 1.0, next], [1.0, next, 1.0]]);
         assert!(independent(&close) && !certainly_independent(&close));
-        // 0.1 + 0.2 is not 0.3 in doubles, 0.1 + 0.1 is 0.2.
+        // In `f64`, 0.1 + 0.2 is not 0.3, but 0.1 + 0.1 is 0.2.
         assert!(!independent(&axes([
             [0.1, 0.7, 0.3],
             [0.1, 0.7, 0.3],
@@ -76,7 +75,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn the_filter_never_lies(m in prop::array::uniform3(prop::array::uniform2(-9i32..9)),
+        fn the_filter_is_never_wrong(m in prop::array::uniform3(prop::array::uniform2(-9i32..9)),
                                  s in -8i32..8, t in -8i32..8, bump in any::<bool>()) {
             // Two rows and an integer combination of them, plus one unit or not.
             let row = |r: [i32; 3]| Vec3::from(r.map(|x| f64::from(x) * 0.5));

@@ -4,27 +4,28 @@
 //! `W > 0`, `-W <= X <= W`, `-W <= Y <= W` and the two bounds of the
 //! [`ClipSpace`]'s depth. `X`, `Y`, `W` are linear in `p`, so they can *be* the
 //! frame: the axes are the matrix's own rows, unrounded, whatever their lengths
-//! and angles; the sides are `x = +-z`, `y = +-z`. What is left:
+//! and angles; the sides are `x = +-z`, `y = +-z`. Three things remain:
 //!
-//! 1. the eye, where `X = Y = W = 0`: an exact 3x3 system, rounded once a
-//!    coordinate;
+//! 1. the eye, where `X = Y = W = 0`: an exact 3x3 system, each coordinate
+//!    rounded once;
 //! 2. `Z = c X + d Y + a W + b`, exactly. The depth bounds are then `W >= near`,
-//!    `W <= far` along the middle of the view, each rounded once. There is no
-//!    cancellation but what the matrix itself went through;
+//!    `W <= far` along the middle of the view, each rounded once. Nothing cancels
+//!    that did not cancel when the matrix was made;
 //! 3. `c` and `d`: zero, unless rounding of the matrix tilted the near and far
-//!    planes against the picture. Their effect is reported, not corrected.
+//!    planes relative to the picture. [`Deviation`] reports their effect; it is not
+//!    corrected.
 //!
 //! Where `W` is constant the projection is parallel, and `X`, `Y`, `Z` are the
-//! frame. Conventions are types, because taking one for another gives a frustum
-//! that looks right: see [`ClipSpace`] and [`MatrixLayout`]. Handedness needs
-//! no convention; the rows have it.
+//! frame. Conventions are types, because a wrong one can give a frustum that
+//! looks right: see [`ClipSpace`] and [`MatrixLayout`]. Handedness needs no
+//! convention; the rows determine it.
 
 use super::eval::exact_vec::{Dyadic, Dyadic3, Rounded, cross, dot, exact, unit};
 use super::{Direction, EndRect, Frustum, FrustumError, Shape};
 use crate::math::{Pose, Real, Rect, Vec3};
 use std::cmp::Ordering;
 
-/// How sixteen numbers make a matrix, and how the matrix acts on points.
+/// The storage order of a matrix, and the side on which it multiplies points.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum MatrixLayout {
     /// `m[i]` is row `i`, and clip coordinates are `M p`: mathematics, C arrays
@@ -50,7 +51,7 @@ impl MatrixLayout {
     }
 }
 
-/// The range of `Z / W` that is in view.
+/// The range of `Z / W` in view.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum DepthRange {
     /// `0 <= Z <= W`: Direct3D, Vulkan, Metal, WebGPU.
@@ -59,23 +60,23 @@ pub enum DepthRange {
     MinusOneToOne,
 }
 
-/// Which way clip `Y` goes in the picture. It only tells top from bottom.
+/// The direction of clip `Y` in the picture. It only decides which side is the top.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum ClipY {
-    /// Larger `Y` is higher: all but Vulkan.
+    /// Larger `Y` is higher: all interfaces except Vulkan.
     Up,
     /// Larger `Y` is lower: Vulkan, unless its viewport is flipped.
     Down,
 }
 
-/// What a view-projection matrix maps to.
+/// The conventions of the clip space that a view-projection matrix maps to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct ClipSpace {
     /// The range of depths.
     pub depth: DepthRange,
-    /// Whether the near face has the *largest* depth (reversed Z).
+    /// Whether the near face has the *largest* depth (reversed depth).
     pub reversed: bool,
-    /// Which way clip `Y` goes.
+    /// The direction of clip `Y`.
     pub y: ClipY,
 }
 
@@ -99,7 +100,7 @@ impl ClipSpace {
         y: ClipY::Down,
     };
 
-    /// The same, with near at the largest depth.
+    /// The same clip space with near at the largest depth.
     #[must_use]
     pub const fn reversed(self) -> Self {
         Self {
@@ -135,35 +136,40 @@ pub struct ViewProjection<T> {
     rows: [[T; 4]; 4],
 }
 
-/// A frustum from a matrix, and how far it is from what the matrix says.
+/// A frustum from a matrix, and its deviation from the exact clip volume.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MatrixFrustum {
     /// The frustum. Frame `z` is clip `W`: the distance from the eye for the
     /// usual matrices, in any unit otherwise. (Orthographic: clip `Z`.)
     pub frustum: Frustum,
-    /// The measured difference.
+    /// The measured deviation.
     pub deviation: Deviation,
 }
 
-/// By how much the eight vertices of a frustum miss the exact clip volume of
-/// its matrix: from exact residuals, an upper bound for the largest of them.
+/// The largest deviation of a frustum's vertices from the exact clip volume of
+/// its matrix.
+///
+/// Each number is the exact maximum, rounded up to the next `f64`: an upper
+/// bound, and 0 only if there is no deviation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Deviation {
-    /// Of `X / W` and `Y / W` from `+-1`, at the vertices: rounding of the eye.
-    /// Infinite if the eye's rounding is as large as the near distance.
+    /// The deviation of `X / W` and `Y / W` from `+-1`, which rounding of the
+    /// eye causes. Infinite if it moves a near vertex to `W <= 0`.
     pub sides: f64,
-    /// Of the near face, as a fraction of the near distance (orthographic: of
-    /// the depth): rounding, and the tilt of the matrix's near plane.
+    /// The deviation of the near vertices from the matrix's near plane, along
+    /// `W`, as a fraction of the near distance (orthographic: along `Z`, as a
+    /// fraction of the depth). Rounding causes it, and the tilt of that plane.
     pub near: f64,
-    /// Of the far face, as a fraction of the far distance (orthographic: of
-    /// the depth). At 1 and above, rounding of the matrix has left no far plane
-    /// to speak of. For an infinite frustum: the near distance over the closest
-    /// distance of the matrix's far plane, a plane that only rounding tilted
-    /// into view; 0 if there is none.
+    /// The same for the far vertices and the far plane, as a fraction of the far
+    /// distance (orthographic: of the depth). At 1 and above, rounding of the
+    /// matrix's entries has left no usable far plane. For an infinite frustum:
+    /// the near distance divided by the least `W` at which the matrix's far
+    /// plane, tilted by rounding alone, enters the clip volume; 0 if it does
+    /// not.
     pub far: f64,
 }
 
-/// The nine parts of a perspective matrix as rows in the frame.
+/// The rows of a matrix: linear parts and constants.
 struct Rows {
     x: Vec3<f64>,
     y: Vec3<f64>,
@@ -174,7 +180,7 @@ struct Rows {
 }
 
 impl<T: Real> ViewProjection<T> {
-    /// From sixteen numbers.
+    /// Creates a matrix from its entries in the given layout.
     #[must_use]
     pub fn new(entries: [[T; 4]; 4], layout: MatrixLayout) -> Self {
         Self {
@@ -186,13 +192,13 @@ impl<T: Real> ViewProjection<T> {
         }
     }
 
-    /// From sixteen numbers in a row, four for each of what the layout counts
-    /// first: rows or columns, as they lie in memory.
+    /// Creates a matrix from its entries in memory order: four rows or four columns,
+    /// depending on the layout.
     ///
     /// ```
     /// use frusta::{MatrixLayout, ViewProjection};
-    /// let numbers: [f64; 16] = std::array::from_fn(|i| i as f64);
-    /// let matrix = ViewProjection::from_flat(numbers, MatrixLayout::ColumnMajorColumnVectors);
+    /// let entries: [f64; 16] = std::array::from_fn(|i| i as f64);
+    /// let matrix = ViewProjection::from_flat(entries, MatrixLayout::ColumnMajorColumnVectors);
     /// let rows = matrix.to_array(MatrixLayout::RowMajorColumnVectors);
     /// assert_eq!(rows[0], [0.0, 4.0, 8.0, 12.0]);
     /// ```
@@ -202,7 +208,7 @@ impl<T: Real> ViewProjection<T> {
         Self::new(entries, layout)
     }
 
-    /// The sixteen numbers.
+    /// The entries in the given layout.
     #[must_use]
     pub fn to_array(&self, layout: MatrixLayout) -> [[T; 4]; 4] {
         if layout.holds_columns() {
@@ -214,23 +220,21 @@ impl<T: Real> ViewProjection<T> {
 
     /// The frustum that the matrix maps to the clip volume.
     ///
-    /// A far plane at or behind infinity, as far as rounding explains it, makes
-    /// an infinite frustum: in `f32` that is what a matrix made for `near =
-    /// 1e-6, far = 1e6` without reversed depth says, for its entries hold no
-    /// more.
+    /// A far plane at infinity, or beyond it by no more than rounding explains, gives
+    /// an infinite frustum. An `f32` matrix for `near = 1e-6, far = 1e6` without
+    /// reversed depth is such a case: its entries do not determine the far plane.
     ///
-    /// Error: see [`Deviation`], measured for each matrix. It counts from the
-    /// exact clip volume of the given entries; what rounding did before, the
-    /// matrix no longer says (a near plane at 0.1 seen from an eye at 1e7 is
-    /// lost in `f32`).
+    /// Error: [`Deviation`] bounds it, for each matrix. It is relative to the exact
+    /// clip volume of the given entries; errors of those entries are not part of it
+    /// (in `f32`, a near plane at 0.1 seen from an eye at 1e7 is lost).
     ///
     /// # Errors
-    /// [`FrustumError::NonFinite`] with the entry;
+    /// [`FrustumError::NonFinite`], which names the entry;
     /// [`FrustumError::SingularMatrix`]; [`FrustumError::NegativeW`];
     /// [`FrustumError::TiltedDepth`] for near and far planes that are not
     /// parallel to the picture, by more than `64 u` (`u` of `T`);
-    /// [`FrustumError::NoNearPlane`] and [`FrustumError::FarBehindEye`], which
-    /// a wrong [`ClipSpace`] causes; [`FrustumError::FarNotBeyondNear`];
+    /// [`FrustumError::NoNearPlane`] and [`FrustumError::FarBehindEye`], mostly for a
+    /// wrong [`ClipSpace`]; [`FrustumError::FarNotBeyondNear`];
     /// [`FrustumError::Overflow`].
     pub fn frustum(&self, clip: ClipSpace) -> Result<MatrixFrustum, FrustumError> {
         let mut rows = [[0.0; 4]; 4];
@@ -329,14 +333,14 @@ impl System {
         }
     }
 
-    /// How a vector is made of the three rows, times the determinant.
+    /// The coefficients of a vector in terms of the three rows, times the determinant.
     fn coefficients(&self, v: Vec3<f64>) -> Dyadic3 {
         let v = exact(v);
         std::array::from_fn(|k| dot(&self.columns[k], &v))
     }
 }
 
-/// The exact value of a row at a point, rounded once.
+/// The exact value of a row at a point.
 fn value(row: Vec3<f64>, constant: f64, p: Vec3<f64>) -> Dyadic {
     &dot(&exact(row), &exact(p)) + &constant.into()
 }
@@ -354,8 +358,11 @@ fn parallel(rows: &Rows, clip: ClipSpace) -> Result<MatrixFrustum, FrustumError>
     };
     let (near, far) = if clip.reversed { (w, low) } else { (low, w) };
     let rect = Rect::centred(w, w);
-    let residual = |row, constant| value(row, constant, origin).to_f64().abs();
-    let depth = residual(rows.z, z) / (w - low);
+    // A vertex is off by the clip coordinates of the rounded origin, which would be 0.
+    let residual = |row, constant| value(row, constant, origin).abs();
+    let sides = residual(rows.x, x).max(residual(rows.y, y));
+    let w = Dyadic::from(w);
+    let depth = residual(rows.z, z).ratio_up(&(&w - &low.into()));
     let shape = Shape::Finite {
         near: EndRect { z: near, rect },
         far: EndRect { z: far, rect },
@@ -363,28 +370,28 @@ fn parallel(rows: &Rows, clip: ClipSpace) -> Result<MatrixFrustum, FrustumError>
     Ok(MatrixFrustum {
         frustum: Frustum::new(Pose::new(origin, axes), shape)?,
         deviation: Deviation {
-            sides: residual(rows.x, x).max(residual(rows.y, y)) / w,
+            sides: sides.ratio_up(&w),
             near: depth,
             far: depth,
         },
     })
 }
 
-/// A bound on depth, as a function of `W` along the middle of the view:
-/// `slope * W + constant >= 0` (both times the determinant).
+/// A bound on depth, `z Z + w W >= 0`.
+///
+/// Along the middle of the view, where `X = Y = 0`, it is a function of `W`
+/// alone: `slope * W + constant >= 0` (both times the determinant).
 struct DepthBound {
+    z: f64,
+    w: f64,
     slope: Dyadic,
     constant: Dyadic,
-    /// The bound of `Z / W` it comes from.
-    depth: f64,
 }
 
 /// `Z` in terms of `X, Y, W`, all times the determinant, which is positive.
 struct Depth {
     /// `|c| + |d|`: the tilt.
     tilt: Dyadic,
-    /// `b`.
-    at_eye: Dyadic,
     determinant: Dyadic,
     near: DepthBound,
     far: DepthBound,
@@ -401,24 +408,21 @@ impl Depth {
             DepthRange::ZeroToOne => 0.0,
             DepthRange::MinusOneToOne => -1.0,
         };
-        let above = DepthBound {
-            slope: &a - &(&determinant * &low.into()),
-            constant: at_eye.clone(),
-            depth: low,
+        let bound = |z: f64, w: f64| DepthBound {
+            z,
+            w,
+            slope: &(&a * &z.into()) + &(&determinant * &w.into()),
+            constant: &at_eye * &z.into(),
         };
-        let below = DepthBound {
-            slope: &determinant - &a,
-            constant: -&at_eye,
-            depth: 1.0,
-        };
+        let above = bound(1.0, 0.0 - low);
+        let below = bound(-1.0, 1.0);
         let (near, far) = if clip.reversed {
             (below, above)
         } else {
             (above, below)
         };
         Self {
-            tilt: &absolute(c) + &absolute(d),
-            at_eye,
+            tilt: &c.abs() + &d.abs(),
             determinant,
             near,
             far,
@@ -448,11 +452,11 @@ impl Depth {
         Ok(distance)
     }
 
-    /// `None`: there is no far plane.
+    /// The far distance; `None` for an infinite frustum.
     fn far_distance(&self, near: f64, slack: f64) -> Result<Option<f64>, FrustumError> {
         let far = &self.far;
         if far.slope.order() != Ordering::Less {
-            // At infinity, or beyond it by rounding.
+            // The plane is at infinity, or beyond it.
             let beyond = far.slope.ratio(&self.determinant);
             if beyond > slack {
                 let w = far.constant.ratio(&-&far.slope);
@@ -475,30 +479,28 @@ impl Depth {
         Ok(Some(distance))
     }
 
-    /// How far a bound's plane is off at the corners of the rectangle at
-    /// `distance`, relative to it.
+    /// The distance along `W` between a bound's plane and the vertices at
+    /// `distance`, as a fraction of it, rounded up. `z` and `w` are the clip
+    /// coordinates of the frustum's origin.
     fn displacement(&self, bound: &DepthBound, distance: f64, z: &Dyadic, w: &Dyadic) -> f64 {
-        // The tilt, the eye's rounding, the distance's rounding.
-        let tilt = self.tilt.ratio(&bound.slope).abs();
-        let shift = &(z - &(w * &bound.depth.into())) * &self.determinant;
-        let shift = (&shift - &self.at_eye).ratio(&bound.slope).abs();
-        tilt + shift / distance + f64::EPSILON
+        // The vertices are at D (+-1, +-1, 1) in the frame, so the bound's value there is
+        // +-c D +- d D + slope D + (its value at the origin). It changes by `slope` along W.
+        let distance = Dyadic::from(distance);
+        let at_origin = &(z * &bound.z.into()) + &(w * &bound.w.into());
+        let middle = &(&bound.slope * &distance) + &(&at_origin * &self.determinant);
+        let largest = &(&self.tilt * &distance) + &middle.abs();
+        largest.ratio_up(&(&bound.slope.clone().abs() * &distance))
     }
 
-    /// The near distance over that at which a tilted far plane comes into view.
+    /// The near distance divided by the least `W` at which a tilted far plane
+    /// enters the clip volume, rounded up.
     fn stray_far_plane(&self, near: f64) -> f64 {
+        // Along the edges X, Y = +-W the bound is (slope - tilt) W + constant >= 0.
         let excess = &self.tilt - &self.far.slope;
         match excess.order() {
-            Ordering::Greater => near * excess.ratio(&self.far.constant),
+            Ordering::Greater => (&excess * &near.into()).ratio_up(&self.far.constant),
             _ => 0.0,
         }
-    }
-}
-
-fn absolute(x: Dyadic) -> Dyadic {
-    match x.order() {
-        Ordering::Less => -&x,
-        _ => x,
     }
 }
 
@@ -527,18 +529,13 @@ fn perspective(rows: &Rows, clip: ClipSpace, slack: f64) -> Result<MatrixFrustum
         },
     };
 
-    // Where the rounded origin stands in clip space.
-    let x = value(rows.x, x, origin).to_f64().abs();
-    let y = value(rows.y, y, origin).to_f64().abs();
+    // Clip coordinates of the rounded origin, where X, Y and W would be 0.
+    let x = value(rows.x, x, origin).abs();
+    let y = value(rows.y, y, origin).abs();
     let z = value(rows.z, z, origin);
     let w = value(rows.w, w, origin);
-    let off = w.to_f64().abs();
     let deviation = Deviation {
-        sides: if off < near {
-            (x.max(y) + off) / (near - off)
-        } else {
-            f64::INFINITY
-        },
+        sides: sides(x.max(y), &w, near),
         near: depth.displacement(&depth.near, near, &z, &w),
         far: match far {
             Some(far) => depth.displacement(&depth.far, far, &z, &w),
@@ -551,6 +548,18 @@ fn perspective(rows: &Rows, clip: ClipSpace, slack: f64) -> Result<MatrixFrustum
     })
 }
 
+/// [`Deviation::sides`], from the clip coordinates of the rounded origin: the
+/// larger of `|X|` and `|Y|`, and `W`.
+fn sides(across: Dyadic, w: &Dyadic, near: f64) -> f64 {
+    // At a near vertex X is +-near + X_origin and W is near + W_origin, so |X / W -+ 1| is
+    // |X_origin -+ W_origin| / W. At a far vertex W is larger.
+    let at_vertex = w + &near.into();
+    match at_vertex.order() {
+        Ordering::Greater => (&across + &w.clone().abs()).ratio_up(&at_vertex),
+        _ => f64::INFINITY,
+    }
+}
+
 /// Near and far planes are combinations of the rows `Z` and `W`: parallel to
 /// the picture if these two are.
 fn check_tilt(rows: &Rows, slack: f64) -> Result<(), FrustumError> {
@@ -560,8 +569,8 @@ fn check_tilt(rows: &Rows, slack: f64) -> Result<(), FrustumError> {
     };
     let sine = z.cross(w);
     let sine = sine.dot(sine).sqrt();
-    // Rounding in `W` counts for a short `Z`, too. Both lengths at most differ
-    // by a factor beyond the range of doubles: then the quotient is infinite.
+    // The rounding error of `W` is part of a short `Z`, too. If the lengths differ by a
+    // factor beyond the range of `f64`, the quotient is infinite.
     let largest = |v: Vec3<f64>| v.x.abs().max(v.y.abs()).max(v.z.abs());
     if sine > slack * (1.0 + largest(rows.w) / largest(rows.z)) {
         Err(FrustumError::TiltedDepth { sine })

@@ -1,4 +1,47 @@
-//! The frustum: its canonical form and how to make one.
+//! View frusta: their canonical form and the constructors.
+//!
+//! A [`Frustum`] is a closed convex set, defined exactly by a [`Pose`](crate::Pose) (a frame in the
+//! world) and a [`Shape`] in that frame: two rectangles, or one rectangle that grows without end. All
+//! clipping and culling in this crate is relative to one.
+//!
+//! | given | constructor |
+//! |---|---|
+//! | eye, target, field of view or view rectangle | [`Camera::frustum`] |
+//! | a view-projection matrix | [`ViewProjection::frustum`] |
+//! | two rectangles, in any frame | [`Frustum::new`] |
+//! | six points, as in the projection-reduction paper | [`SixPoints::frustum`] |
+//! | another frustum, for a pick box, a tile or one eye of a stereo pair | [`Frustum::window`], [`Frustum::tile`], [`Frustum::stereo_eye`] |
+//!
+//! A [`Camera`] is the better choice where both it and a matrix are at hand: it keeps the near and far
+//! distances as given, while the entries of a matrix have been rounded already. Each constructor states
+//! its own error bound; after that the stored numbers *are* the frustum, and no answer depends on what
+//! they were rounded from.
+//!
+//! ```
+//! use frusta::{Camera, Projection, Rect, Vec3};
+//!
+//! let camera = Camera {
+//!     eye: [0.0, 0.0, 10.0].into(),
+//!     target: [0.0, 0.0, 0.0].into(),
+//!     up: [0.0, 1.0, 0.0].into(),
+//!     projection: Projection::Perspective {
+//!         fovy: 60_f64.to_radians(),
+//!         aspect: 16.0 / 9.0,
+//!     },
+//!     near: 0.1,
+//!     far: 100.0,
+//! };
+//! let frustum = camera.frustum()?;
+//! assert!(frustum.contains(Vec3::new(0.0, 0.0, 0.0)).unwrap());
+//!
+//! // The left half of the picture.
+//! let left = frustum.window(Rect::new(0.0, 0.5, 0.0, 1.0))?;
+//! assert!(!left.contains(Vec3::new(0.5, 0.0, 0.0)).unwrap());
+//! # Ok::<(), frusta::FrustumError>(())
+//! ```
+//!
+//! [`Frustum::corners`] and [`Frustum::planes`] give vertices and planes in the world, rounded, for drawing;
+//! [`Frustum::tv`] and [`Frustum::tw`] the two [`Trapezoid`]s of the paper's method.
 
 mod camera;
 pub(crate) mod corners;
@@ -31,9 +74,9 @@ use independent::independent;
 use std::fmt;
 
 /// A view frustum: the closed set of the points whose frame coordinates (see
-/// [`Pose`]) lie in a [`Shape`], under exact arithmetic on the stored doubles.
+/// [`Pose`]) lie in a [`Shape`], by exact arithmetic on the stored `f64` values.
 ///
-/// Two frusta are equal if their poses and shapes are.
+/// Two frusta are equal if their poses and shapes are equal.
 #[derive(Clone)]
 pub struct Frustum {
     pose: Pose,
@@ -43,7 +86,7 @@ pub struct Frustum {
 }
 
 impl Frustum {
-    /// From a pose and a shape.
+    /// Creates a frustum from a pose and a shape, both stored as given.
     ///
     /// ```
     /// use frusta::{Direction, EndRect, Face, Frustum, FrustumError, Pose, Rect, Shape, Vec3};
@@ -52,7 +95,7 @@ impl Frustum {
     /// let frustum = Frustum::new(Pose::IDENTITY, Shape::Finite { near, far })?;
     /// assert_eq!(frustum.faces(), Face::ALL);
     ///
-    /// // The same sides without end, from another place. Axes need not be of
+    /// // The same sides without a far end, in another place. Axes need not be of
     /// // unit length.
     /// let mut pose = Pose::IDENTITY;
     /// pose.origin = Vec3::new(10.0, 0.0, 0.0);
@@ -67,8 +110,8 @@ impl Frustum {
     /// ```
     ///
     /// # Errors
-    /// What [`Shape::validate`] finds; numbers of the pose that are not finite;
-    /// axes that are exactly dependent.
+    /// Any error of [`Shape::validate`]; [`FrustumError::NonFinite`] for the pose;
+    /// [`FrustumError::DependentAxes`] if the axes are exactly dependent.
     pub fn new(pose: Pose, shape: Shape) -> Result<Self, FrustumError> {
         shape.validate()?;
         check_pose(&pose)?;
@@ -82,12 +125,12 @@ impl Frustum {
         })
     }
 
-    /// The frame.
+    /// The frame of the frustum in the world.
     pub fn pose(&self) -> &Pose {
         &self.pose
     }
 
-    /// The faces there are, in the order of [`Face::ALL`]: six, or five for an
+    /// The faces of the frustum, in the order of [`Face::ALL`]: six, or five for an
     /// infinite frustum.
     pub fn faces(&self) -> &'static [Face] {
         match self.shape {
@@ -96,7 +139,7 @@ impl Frustum {
         }
     }
 
-    /// The frustum in its frame.
+    /// The shape of the frustum in its frame.
     pub fn shape(&self) -> &Shape {
         &self.shape
     }
@@ -114,8 +157,8 @@ impl Frustum {
     }
 }
 
-// By what defines a frustum: what is prepared from it follows, and may hold a
-// NaN where a filter has no room.
+// Compares what defines a frustum. The prepared constants follow from it, and may be NaN
+// where the numbers are out of the filter's range.
 impl PartialEq for Frustum {
     fn eq(&self, other: &Self) -> bool {
         self.pose == other.pose && self.shape == other.shape

@@ -7,9 +7,9 @@ use crate::math::Rect;
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct EndRect {
-    /// Where the end is.
+    /// The frame `z` of the rectangle.
     pub z: f64,
-    /// Its bounds.
+    /// The bounds in frame `x` and `y`.
     #[cfg_attr(feature = "serde", serde(flatten))]
     pub rect: Rect,
 }
@@ -24,7 +24,7 @@ impl EndRect {
     }
 }
 
-/// Which way an infinite frustum goes.
+/// The direction in which an infinite frustum extends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Direction {
     /// Towards larger `z`.
@@ -44,25 +44,26 @@ impl Direction {
     }
 }
 
-/// A frustum in its own frame: the closed convex hull of two rectangles, or a
-/// rectangle that grows for ever.
+/// A frustum in its own frame: the closed convex hull of two rectangles, or the
+/// closed set swept by a rectangle that grows without end.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Shape {
-    /// Between two rectangles. `near.z != far.z`, in either order. An end may
-    /// shrink to an edge or to a point (a pyramid), not both in the same way.
+    /// The hull of two rectangles. `near.z != far.z`, in either order. An end may
+    /// shrink to an edge or to a point (a pyramid), but the two ends must not both
+    /// lack width, nor both lack height.
     Finite {
-        /// The end where depth is zero.
+        /// The end at depth zero.
         near: EndRect,
-        /// The other end.
+        /// The end at the greatest depth.
         far: EndRect,
     },
-    /// From a rectangle to infinity; no far face.
+    /// A rectangle and everything beyond it; no far face.
     Infinite {
-        /// The end where depth is zero.
+        /// The end at depth zero.
         near: EndRect,
-        /// How much each side's bound changes for each unit of depth.
+        /// The change of each side's bound per unit of depth.
         slopes: Rect,
-        /// Which way depth grows.
+        /// The direction in which depth grows.
         direction: Direction,
     },
 }
@@ -75,7 +76,7 @@ impl Shape {
         }
     }
 
-    /// The far end, if there is one.
+    /// The far end; `None` for an infinite frustum.
     pub const fn far(&self) -> Option<EndRect> {
         match *self {
             Shape::Finite { far, .. } => Some(far),
@@ -83,7 +84,7 @@ impl Shape {
         }
     }
 
-    /// Which way depth grows.
+    /// The direction in which depth grows.
     pub fn direction(&self) -> Direction {
         match *self {
             Shape::Finite { near, far } if far.z < near.z => Direction::MinusZ,
@@ -92,19 +93,20 @@ impl Shape {
         }
     }
 
-    /// The frame coordinate, by axis, that all points of a face have in common.
-    pub(crate) fn level(&self, face: Face) -> Option<(usize, f64)> {
+    /// The axis and the value of the frame coordinate that all points of a face have
+    /// in common, if there is one.
+    pub(crate) fn constant_coordinate(&self, face: Face) -> Option<(usize, f64)> {
         let i = match face {
             Face::Near => return Some((2, self.near().z)),
             Face::Far => return self.far().map(|far| (2, far.z)),
             _ => face as usize - 2,
         };
         let at = self.near().rect.to_array()[i];
-        let level = match self {
+        let is_constant = match self {
             Shape::Finite { far, .. } => far.rect.to_array()[i] == at,
             Shape::Infinite { slopes, .. } => slopes.to_array()[i] == 0.0,
         };
-        level.then_some((i / 2, at))
+        is_constant.then_some((i / 2, at))
     }
 
     /// The shape scaled about its frame's origin; slopes stay.
@@ -130,10 +132,12 @@ impl Shape {
         }
     }
 
-    /// Checks what [`Shape`] promises.
+    /// Checks the conditions that [`Shape`] documents.
     ///
     /// # Errors
-    /// The first thing that is wrong, by name.
+    /// The first condition that fails: [`FrustumError::NonFinite`],
+    /// [`FrustumError::NoDepth`], [`FrustumError::Inverted`] or
+    /// [`FrustumError::Flat`].
     pub fn validate(&self) -> Result<(), FrustumError> {
         let (near, far, other, names) = match self {
             Shape::Finite { near, far } => (near, far.rect, "far", FINITE_NAMES),

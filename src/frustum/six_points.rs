@@ -2,24 +2,24 @@
 //!
 //! `Pb` and `Pt` are the centres of the base (far) and the top (near) face,
 //! `A1` and `A2` the midpoints of the base's sides on `+x` and `+y`, `A3` and
-//! `A4` those of the top's. (The paper only draws them. With corners in place
-//! of midpoints the two trapezoids would bound a larger solid.)
+//! `A4` those of the top's. (The paper only draws them. If they were corners, the
+//! two trapezoids would bound a larger solid.)
 //!
 //! The paper's frame has unit axes along `Pb -> Pt`, `Pb -> A1` and their cross
-//! product. Two numbered deviations keep more digits:
+//! product. Two deviations from it keep more digits:
 //!
-//! 1. Axes are the differences themselves, times a power of two, not unit
+//! 1. The axes are the differences themselves, times a power of two, not unit
 //!    vectors: no root and no division. Frame coordinates are scaled with them,
 //!    so the rectangles have the scale of the squared lengths.
-//! 2. The `y` axis is `Pb -> A2`, a difference, not the cross product, which
+//! 2. The `y` axis is the difference `Pb -> A2`, not the cross product, which
 //!    would be of degree two.
 //!
-//! Where the differences are doubles (small integers, say) the frustum is
-//! exactly the one that the points describe. Otherwise each axis is rounded
-//! once a coordinate, each half-extent once.
+//! If the differences are representable (small integers, for example), the
+//! frustum is exactly the one that the points describe. Otherwise each coordinate
+//! of an axis and each half-extent is rounded once.
 //!
-//! Six points overdetermine a frustum: angles that should be right are checked,
-//! up to what rounding of the points explains and [`SixPoints::SKEW`].
+//! Six points overdetermine a frustum: right angles are checked, up to
+//! [`SixPoints::SKEW`] and what rounding of the points explains.
 
 use super::eval::exact_vec::{
     Dyadic, Dyadic3, Rounded, difference, dot, exact, normalised_by_power, unit,
@@ -27,7 +27,8 @@ use super::eval::exact_vec::{
 use super::{EndRect, Frustum, FrustumError, Shape};
 use crate::math::{Pose, Rect, Vec3};
 
-/// The six points; see the paper's figure 1.
+/// A frustum given by six points: the centres of its base and top, and the midpoints of two
+/// sides of each (the paper's figure 1).
 ///
 /// ```
 /// use frusta::{EndRect, SixPoints, Vec3};
@@ -69,29 +70,30 @@ const A2: &str = "the base's midpoint A2";
 const A3: &str = "the top's midpoint A3";
 const A4: &str = "the top's midpoint A4";
 
-/// An edge of the figure: from a centre to what it is named for.
+/// An edge of the figure, from a centre to the point it is named for.
 struct Edge {
     name: &'static str,
     vector: Dyadic3,
     unit: Vec3<f64>,
-    /// Cosine that rounding of the points alone can give a right angle.
+    /// The largest cosine that rounding of the points alone can give a right angle.
     slack: f64,
 }
 
 impl SixPoints {
-    /// Cosine up to which an angle counts as right, besides what rounding of
+    /// The largest cosine of an angle that counts as right, beside what rounding of
     /// the points explains: `2^-20`, about a fifth of a second of arc.
     pub const SKEW: f64 = 1.0 / 1_048_576.0;
 
-    /// The frustum of the six points. Frame: origin `Pb`, `x` along `Pb -> A1`,
-    /// `y` along `Pb -> A2`, `z` along `Pb -> Pt`; the base is the far end at
-    /// `z = 0`, the top the near end.
+    /// The frustum of the six points.
+    ///
+    /// Its frame has the origin `Pb`, `x` along `Pb -> A1`, `y` along `Pb -> A2` and
+    /// `z` along `Pb -> Pt`; the base is the far end at `z = 0`, the top the near end.
     ///
     /// # Errors
-    /// Naming the points: [`FrustumError::NonFinite`],
-    /// [`FrustumError::SamePoint`], [`FrustumError::Skew`],
-    /// [`FrustumError::WrongSide`], [`FrustumError::Overflow`],
-    /// [`FrustumError::Underflow`].
+    /// [`FrustumError::NonFinite`], [`FrustumError::SamePoint`],
+    /// [`FrustumError::Skew`], [`FrustumError::WrongSide`],
+    /// [`FrustumError::Overflow`] or [`FrustumError::Underflow`], each with the names
+    /// of the points.
     pub fn frustum(&self) -> Result<Frustum, FrustumError> {
         self.check_finite()?;
         let required = |(name, to), (from_name, from)| {
@@ -122,7 +124,7 @@ impl SixPoints {
         let (z, depth) = axis(&z)?;
         let top = |axis, to| {
             let half = dot(&exact(axis), &difference(to, self.top_centre)).to_f64();
-            // Rounding of the axis can turn a tiny extent.
+            // Rounding of the axis can make a tiny extent negative.
             half.max(0.0)
         };
         let shape = Shape::Finite {
@@ -169,8 +171,8 @@ impl SixPoints {
             name,
             vector,
             unit,
-            // Each end is off by half an ulp of the largest coordinate, in
-            // three coordinates.
+            // Each of three coordinates of each end is off by at most half an ulp of the
+            // largest coordinate.
             slack: 4.0 * f64::EPSILON * (coordinate / length),
         })
     }
@@ -178,8 +180,8 @@ impl SixPoints {
 
 fn right_angle(a: &Edge, b: &Edge) -> Result<(), FrustumError> {
     let cosine = a.unit.dot(b.unit);
-    // Written so that a slack of infinity or NaN (lengths beyond the range)
-    // does not refuse.
+    // The comparison is false, so no error, if the slack is infinite or NaN (lengths out of
+    // range).
     if cosine.abs() > SixPoints::SKEW + a.slack + b.slack {
         return Err(FrustumError::Skew {
             what: [a.name, b.name],
@@ -191,7 +193,7 @@ fn right_angle(a: &Edge, b: &Edge) -> Result<(), FrustumError> {
 
 /// The edge times a power of two, and its own length in that scale.
 fn axis(edge: &Edge) -> Result<(Vec3<f64>, f64), FrustumError> {
-    // `None` is a zero vector, which is no edge.
+    // Never `None`: an edge is not the zero vector.
     let (axis, _, _) = normalised_by_power(&edge.vector).ok_or(FrustumError::DependentAxes)?;
     let extent: Dyadic = dot(&exact(axis), &edge.vector);
     let extent = extent.to_f64();

@@ -6,7 +6,7 @@
 //! plane W holds `y` and `z`. The frustum's projections on them are the
 //! trapezoids TV and TW; a point is in the frustum exactly if its projections
 //! are in both. So clipping in space is clipping twice in the plane and
-//! intersecting two intervals, and each step can be called by itself:
+//! intersecting two intervals. Each step is a public function:
 //!
 //! 1. [`Pose::to_frame`](crate::Pose::to_frame) both ends;
 //! 2. [`Trapezoid::clip_segment`] the projections by [`Frustum::tv`] and
@@ -16,9 +16,9 @@
 //!
 //! These steps are plain arithmetic, for learning and for plain results; the
 //! library's exact clippers decide by exact signs instead. A trapezoid may be a
-//! triangle (a pyramid), a rectangle (orthographic) or go on for ever.
-//! Segments of zero length and parallel to a side need no special case: only
-//! sides whose two end values differ in sign are divided by.
+//! triangle (a pyramid), a rectangle (orthographic) or infinite. Segments that have
+//! zero length or are parallel to a side need no special case: a division occurs
+//! only for a side at which the values of the two ends differ in sign.
 
 use super::{Direction, EndRect, Frustum, Shape};
 use crate::math::Interval;
@@ -26,34 +26,34 @@ use crate::math::Interval;
 /// One of a trapezoid's parallel sides: `low..high` at `z`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TrapezoidEnd {
-    /// Where the side is.
+    /// The frame `z` of the side.
     pub z: f64,
-    /// Its smaller end.
+    /// The lower bound.
     pub low: f64,
-    /// Its larger end.
+    /// The upper bound.
     pub high: f64,
 }
 
-/// A trapezoid with parallel sides across `z`, a closed set. Points are
-/// `[x, z]` or `[y, z]` of the frame.
+/// A closed trapezoid whose parallel sides are perpendicular to `z`. Its points are
+/// `[x, z]` or `[y, z]` in the frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Trapezoid {
-    /// Between two parallel sides.
+    /// The hull of two parallel sides.
     Finite {
-        /// The side where depth is zero.
+        /// The side at depth zero.
         near: TrapezoidEnd,
-        /// The other one.
+        /// The side at the greatest depth.
         far: TrapezoidEnd,
     },
-    /// From one side to infinity.
+    /// One side and everything beyond it.
     Infinite {
-        /// The side where depth is zero.
+        /// The side at depth zero.
         near: TrapezoidEnd,
-        /// How much `low` changes for each unit of depth.
+        /// The change of `low` per unit of depth.
         low_slope: f64,
-        /// How much `high` changes for each unit of depth.
+        /// The change of `high` per unit of depth.
         high_slope: f64,
-        /// Which way depth grows.
+        /// The direction in which depth grows.
         direction: Direction,
     },
 }
@@ -124,14 +124,14 @@ impl Frustum {
 }
 
 impl Trapezoid {
-    /// The side where depth is zero.
+    /// The side at depth zero.
     pub fn near(&self) -> TrapezoidEnd {
         match *self {
             Self::Finite { near, .. } | Self::Infinite { near, .. } => near,
         }
     }
 
-    /// The side where depth is greatest, if there is one.
+    /// The side at the greatest depth; `None` for an infinite trapezoid.
     pub fn far(&self) -> Option<TrapezoidEnd> {
         match *self {
             Self::Finite { far, .. } => Some(far),
@@ -139,8 +139,8 @@ impl Trapezoid {
         }
     }
 
-    /// Whether it is isosceles about the frame's `z` axis, which is what lets
-    /// one half-width serve both legs.
+    /// Whether the trapezoid is symmetric about the frame's `z` axis, so that both legs
+    /// have the same half-width.
     pub fn is_isosceles(&self) -> bool {
         let near = self.near();
         let (low, high) = match *self {
@@ -154,9 +154,10 @@ impl Trapezoid {
         -near.low == near.high && -low == high
     }
 
-    /// Whether the point is in the closed trapezoid, by plain arithmetic: right
-    /// for every point farther from the outline than about `8 u` times the
-    /// largest coordinate. False if a number is infinite or NaN.
+    /// Whether a point is in the closed trapezoid, by plain arithmetic.
+    ///
+    /// The answer is right for every point farther from the outline than about `8 u`
+    /// times the largest coordinate. False if a number is infinite or NaN.
     pub fn contains(&self, point: [f64; 2]) -> bool {
         self.clip_segment(point, point).is_some()
     }
@@ -185,7 +186,7 @@ impl Trapezoid {
     }
 
     /// Values of the four sides (near, far, low, high) at a point: positive
-    /// inside, zero on the side. A missing far side counts as passed.
+    /// inside, zero on the side. A missing far side has the value 1.
     fn values(&self, [x, z]: [f64; 2]) -> [f64; 4] {
         match *self {
             Self::Finite { near, far } => {
@@ -216,8 +217,8 @@ impl Trapezoid {
         }
     }
 
-    /// Trapezoid and points, scaled by powers of two where products could leave
-    /// the range of doubles; `None` if a number is infinite or NaN.
+    /// The trapezoid and the points, scaled by powers of two where products could leave
+    /// the range of `f64`; `None` if a number is infinite or NaN.
     fn in_range(&self, p: [f64; 2], q: [f64; 2]) -> Option<(Self, [[f64; 2]; 2])> {
         let near = self.near();
         let (across, slope) = match *self {
@@ -269,7 +270,7 @@ impl Trapezoid {
     }
 }
 
-/// The largest magnitude; NaN if one is NaN.
+/// The largest magnitude; NaN if any value is NaN.
 fn largest(values: &[f64]) -> f64 {
     values.iter().fold(0.0, |m: f64, v| {
         if v.abs() > m || v.is_nan() {
@@ -368,7 +369,7 @@ mod tests {
                 for e in [-1060, -800, -600, 300, 600, 1015] {
                     for f in [-900, 0, 1015] {
                         let point = |[x, z]: [f64; 2]| [libm::ldexp(x, e), libm::ldexp(z, f)];
-                        // Slopes must be doubles too.
+                        // Slopes must be in the range of `f64`, too.
                         if (e - f).abs() < 1000 {
                             let got = t.shifted(e, f).clip_segment(point(p), point(q));
                             assert_eq!(got, expected, "{e} {f}");

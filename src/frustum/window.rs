@@ -1,18 +1,17 @@
-//! Frusta from a part of another one: a pick box, a tile, one eye of two.
+//! Frusta derived from another one: a pick box, a tile, one eye of a stereo pair.
 //!
-//! The frame stays; only the numbers of the rectangles change. Each new bound
-//! is the exact value rounded once, a monotone function of the fraction and of
-//! nothing else. So adjoining windows share their border bit for bit, the
-//! fractions 0 and 1 give the parent's own bounds, and windows in order never
-//! overlap. All of it holds for infinite frusta, whose slopes are treated like
-//! a far rectangle. A window that rounding leaves without width or height at
-//! both ends is refused.
+//! The frame stays; only the bounds of the rectangles change. Each new bound is
+//! the exact value rounded once, a monotone function of the fraction alone. So
+//! adjacent windows share their border bit for bit, the fractions 0 and 1 give
+//! the parent's own bounds, and windows in order never overlap. The same holds for
+//! infinite frusta, whose slopes are treated like a far rectangle. A window that
+//! rounding leaves without width or height at both ends is an error.
 
 use super::eval::exact_vec::{Dyadic, Rounded};
 use super::{Frustum, FrustumError, Shape};
 use crate::math::Rect;
 
-/// A part of the whole, `numerator / denominator`.
+/// The fraction `numerator / denominator`.
 struct Fraction {
     numerator: Dyadic,
     denominator: Dyadic,
@@ -26,7 +25,7 @@ impl Fraction {
         }
     }
 
-    /// The number this far from `low` to `high`, rounded once.
+    /// The value at this fraction of the way from `low` to `high`, rounded once.
     fn between(&self, low: f64, high: f64) -> f64 {
         if low == high {
             return low;
@@ -41,14 +40,14 @@ impl Frustum {
     /// The part of the frustum seen through a part of the picture.
     ///
     /// `window` is in fractions of the picture: `x` from 0 at the left side to
-    /// 1 at the right, `y` from 0 at the bottom to 1 at the top. It may reach
-    /// beyond. (A pixel `i` of `n`, counted from the left, is `i / n ..
+    /// 1 at the right, `y` from 0 at the bottom to 1 at the top. It may extend
+    /// beyond the picture. (A pixel `i` of `n`, counted from the left, is `i / n ..
     /// (i + 1) / n`; rows counted from the top need `1 - `.)
     ///
     /// # Errors
     /// [`FrustumError::NonFinite`], [`FrustumError::Inverted`],
-    /// [`FrustumError::Flat`] for a window without width or height, also one
-    /// that rounding leaves without; [`FrustumError::Overflow`].
+    /// [`FrustumError::Flat`] for a window that has no width or no height, or none
+    /// after rounding; [`FrustumError::Overflow`].
     ///
     /// ```
     /// use frusta::{EndRect, Frustum, Pose, Rect, Shape};
@@ -83,15 +82,15 @@ impl Frustum {
         self.part(&window.to_array().map(|s| Fraction::new(s, 1.0)))
     }
 
-    /// One tile of the picture cut into `columns` by `rows`, counted from the
-    /// left and from the bottom.
+    /// One tile of the picture divided into `columns` by `rows`, counted from 0 at the
+    /// left and at the bottom.
     ///
-    /// Adjoining tiles share their border bit for bit; the outer borders are
+    /// Adjacent tiles share their border bit for bit; the outer borders are
     /// the frustum's own.
     ///
     /// # Errors
-    /// [`FrustumError::NoSuchTile`]; [`FrustumError::Flat`] for tiles so many
-    /// that rounding leaves one without width or height.
+    /// [`FrustumError::NoSuchTile`]; [`FrustumError::Flat`] if the tile has no width
+    /// or no height after rounding.
     ///
     /// ```
     /// # use frusta::{EndRect, Frustum, Pose, Shape};
@@ -135,13 +134,13 @@ impl Frustum {
     /// For a frustum whose eye is at frame `z = 0`, such as a
     /// [`Camera`](crate::Camera)'s or a perspective matrix's. The eye moves by
     /// `offset` along the frame's `x` (to the right if positive), the sides
-    /// turn to go through the parent's sides at frame `z = convergence`, and
+    /// turn to pass through the parent's sides at frame `z = convergence`, and
     /// near and far stay. The frame stays too: the new eye is at frame `x =
-    /// offset`, so nothing of the pose is rounded. `f64::INFINITY` gives
+    /// offset`, so the pose is not rounded. A convergence of `f64::INFINITY` gives
     /// parallel eyes.
     ///
     /// In general it is the shear that moves the plane `z = 0` by `offset` and
-    /// leaves the plane `z = convergence` alone. Each new bound is rounded once.
+    /// keeps the plane `z = convergence`. Each new bound is rounded once.
     ///
     /// # Errors
     /// [`FrustumError::NonFinite`] for the offset; [`FrustumError::Convergence`]

@@ -1,5 +1,5 @@
 //! `approx`: approximate comparison of vectors and segments, coordinate by
-//! coordinate, for tests. Nothing in the library decides by it.
+//! coordinate, for tests. No decision of the library uses it.
 
 use crate::math::{Real, Segment, Vec3};
 use approx::{AbsDiffEq, RelativeEq, UlpsEq};

@@ -1,8 +1,8 @@
-//! Conversions to and from other libraries' types, one feature a library.
+//! Conversions to and from the types of other libraries, with one feature for each.
 //!
-//! All are exact and cost nothing but moves. Matrices convert to and from
-//! [`ViewProjection`](crate::ViewProjection), each with the layout its library
-//! documents, so that no caller has to name one.
+//! All are exact, and nothing but moves. Matrices convert to and from
+//! [`ViewProjection`](crate::ViewProjection), each with the layout that its library
+//! documents, so that callers need not name one.
 
 #[cfg(feature = "approx")]
 mod approx;

@@ -1,4 +1,4 @@
-//! `serde`: a frustum as its canonical form, and what clipping gives.
+//! `serde`: frusta in their canonical form, and the results of clipping.
 //!
 //! ```json
 //! {
@@ -10,14 +10,14 @@
 //! ```
 //!
 //! An infinite frustum has, in place of `far`, `"slopes": { "left", "right",
-//! "bottom", "top" }` and `"direction": 1` or `-1`. Reading goes through
-//! [`Frustum::new`], so that no invalid frustum comes out of a file; other
-//! fields are refused, at every depth. The format needs field names (JSON,
-//! TOML, RON; not `bincode`). Text loses nothing if its reader rounds
-//! correctly: for `serde_json` that is its feature `float_roundtrip`.
+//! "bottom", "top" }` and `"direction": 1` or `-1`. Deserialization uses
+//! [`Frustum::new`], so that an invalid frustum is an error; so is any other field, at
+//! every depth. The format needs field names (JSON, TOML, RON; not `bincode`). Text
+//! loses nothing if its reader rounds correctly: `serde_json` does with its feature
+//! `float_roundtrip`.
 //!
-//! Results have the names of their fields; classes and faces are called as in
-//! [`Class::name`](crate::Class::name) and [`Face::name`]:
+//! Results are structures with the names of their fields; the names of classes and faces are
+//! those of [`Class::name`](crate::Class::name) and [`Face::name`]:
 //!
 //! ```json
 //! {"class": "cross", "part": {"entry": {"t": 0, "point": [0, 0, 1], "clipped": false,
@@ -44,8 +44,8 @@ struct Canonical {
     direction: Option<Sign>,
 }
 
-/// [`EndRect`] that takes no other field: its own reader, which flattens the
-/// rectangle, cannot tell.
+/// [`EndRect`] without other fields: its own deserializer, which flattens the rectangle,
+/// cannot detect them.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct End {
@@ -75,7 +75,7 @@ impl From<End> for EndRect {
     }
 }
 
-/// [`Rect`] that takes no other field.
+/// [`Rect`] without other fields.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Sides {
@@ -103,8 +103,8 @@ impl From<Sides> for Rect {
     }
 }
 
-/// A direction as its sign: written as an integer, read as any number, because
-/// some writers know no integers.
+/// A direction as its sign: serialized as an integer, deserialized from any number, because
+/// some writers have no integers.
 #[derive(Clone, Copy, Serialize, Deserialize)]
 #[serde(try_from = "f64", into = "i8")]
 struct Sign(Direction);

@@ -1,25 +1,25 @@
-//! Doubles as hexadecimal text, exactly: `0x1.8p-3` is 0.1875.
+//! Floating-point numbers as exact hexadecimal text: `0x1.8p-3` is 0.1875.
 //!
 //! The notation is C99's (`%a`): a hexadecimal significand and a power of two.
-//! Decimal text may hide the last bit; a witness that must be replayed bit for
-//! bit may not. [`format()`] writes the shortest normalised form, subnormals
+//! Decimal text may hide the last bit, which a witness for replay must show.
+//! [`format()`] writes the shortest normalised form, subnormals
 //! included (the smallest is `0x1p-1074`); [`parse_f64`] reads any number of
-//! digits before and after the point and refuses what no double equals, so
-//! that nothing is rounded in silence. Infinities and NaN are written `inf`,
+//! digits before and after the point, and fails if no `f64` equals the value, so
+//! that nothing is rounded silently. Infinities and NaN are written `inf`,
 //! `-inf`, `nan` (without payload) and read back.
 
 use super::Segment;
 use super::{Real, Vec3};
 use std::fmt::{self, Write};
 
-/// Why a text is no hexadecimal double.
+/// The error for a text that is not an exact hexadecimal number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum HexError {
-    /// Not of the form `[+-]0xH.HHp[+-]D`, `inf` or `nan`.
+    /// The text is not of the form `[+-]0xH.HHp[+-]D`, `inf` or `nan`.
     Syntax,
-    /// Well formed, but no value of the type equals it: too many digits, too
-    /// large or too small.
+    /// No value of the type equals the number: it has too many digits, or is too large
+    /// or too small.
     Inexact,
 }
 
@@ -62,7 +62,7 @@ impl<T: Real> fmt::Display for Hex<Segment<T>> {
     }
 }
 
-/// The exact hexadecimal text of a double.
+/// The exact hexadecimal text of an `f64`.
 ///
 /// ```
 /// use frusta::math::hex;
@@ -107,7 +107,7 @@ fn write_f64(out: &mut impl Write, value: f64) -> fmt::Result {
     write!(out, "p{exponent:+}")
 }
 
-/// The double that a hexadecimal text denotes.
+/// The `f64` that a hexadecimal text denotes.
 ///
 /// Upper and lower case, a leading sign and a missing exponent are accepted.
 ///
@@ -120,7 +120,7 @@ fn write_f64(out: &mut impl Write, value: f64) -> fmt::Result {
 /// ```
 ///
 /// # Errors
-/// The text has another form, or no double equals its value.
+/// The text has another form, or no `f64` equals its value.
 pub fn parse_f64(text: &str) -> Result<f64, HexError> {
     let (negative, rest) = match text.as_bytes() {
         [b'-', ..] => (true, &text[1..]),
@@ -139,7 +139,7 @@ pub fn parse_f64(text: &str) -> Result<f64, HexError> {
     Ok(if negative { -magnitude } else { magnitude })
 }
 
-/// The single that a hexadecimal text denotes.
+/// The `f32` that a hexadecimal text denotes.
 ///
 /// # Errors
 /// The text has another form, or no `f32` equals its value.
@@ -163,8 +163,8 @@ fn magnitude(body: &str) -> Result<f64, HexError> {
     if whole.is_empty() && fraction.is_empty() {
         return Err(HexError::Syntax);
     }
-    // The digits as an integer of at most 64 bits times a power of two. Zeros
-    // before the first digit and after the last one add nothing.
+    // The digits as an integer of at most 64 bits times a power of two. Leading and
+    // trailing zeros do not count.
     let (mut significand, mut exponent, mut zeros) = (0_u64, exponent, 0_i64);
     for (i, c) in whole.chars().chain(fraction.chars()).enumerate() {
         let digit = c.to_digit(16).ok_or(HexError::Syntax)?;
@@ -195,12 +195,12 @@ fn parse_exponent(text: &str) -> Result<i64, HexError> {
     if digits.is_empty() || !digits.bytes().all(|b| b.is_ascii_digit()) {
         return Err(HexError::Syntax);
     }
-    // Far outside the range of doubles, whatever the digits before it are.
+    // Far outside the range of `f64`, whatever the digits before it are.
     let value = digits.parse::<i64>().unwrap_or(1 << 40).min(1 << 40);
     Ok(if text.starts_with('-') { -value } else { value })
 }
 
-/// `odd * 2^exponent` as a double, if there is one.
+/// `odd * 2^exponent`, if an `f64` equals it.
 fn assemble(odd: u64, exponent: i64) -> Result<f64, HexError> {
     let length = 64 - i64::from(odd.leading_zeros());
     let leading = exponent + length - 1;
@@ -231,7 +231,7 @@ mod tests {
     }
 
     #[test]
-    fn every_kind_of_double_comes_back() {
+    fn every_kind_of_f64_reads_back() {
         let edges = [
             0.0,
             -0.0,
@@ -259,7 +259,7 @@ mod tests {
     }
 
     #[test]
-    fn singles_come_back() {
+    fn f32_values_read_back() {
         for bits in bit_patterns().take(20_000) {
             let value = f32::from_bits(bits as u32);
             let back = parse_f32(&Hex(value).to_string()).unwrap();
@@ -288,7 +288,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_hexadecimal_number() {
+    fn other_texts_are_errors() {
         for text in [
             "", "-", "0x", "0xp3", "0x.p3", "0x1p", "0x1p+", "0x1p1.5", "0x1.8.8", "0xg", "1.0",
             "--0x1", "0x1p--3", "0x 1", "0x-1", "é", "0x1é",

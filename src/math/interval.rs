@@ -14,25 +14,26 @@ impl Interval {
         end: 1.0,
     };
 
-    /// From both ends; `None` if `start > end` or either is NaN.
+    /// Creates an interval from its ends; `None` if `start > end` or either is NaN.
     #[must_use]
     pub fn new(start: f64, end: f64) -> Option<Self> {
         (start <= end).then_some(Self { start, end })
     }
 
-    /// The least number in it.
+    /// The lower end.
     pub fn start(self) -> f64 {
         self.start
     }
 
-    /// The greatest number in it.
+    /// The upper end.
     pub fn end(self) -> f64 {
         self.end
     }
 
-    /// What two intervals have in common: the last step of the paper's method
-    /// in the plane, where a hit on one trapezoid counts only if it is also
-    /// one on the other.
+    /// The intersection of two intervals; `None` if it is empty.
+    ///
+    /// It is the last step of the paper's method in the plane: a point counts only
+    /// if it is in both trapezoids.
     ///
     /// ```
     /// use frusta::Interval;
@@ -46,7 +47,7 @@ impl Interval {
         Self::new(self.start.max(other.start), self.end.min(other.end))
     }
 
-    /// Whether the number is in it, ends included.
+    /// Whether a parameter is in the interval, ends included.
     pub fn contains(self, t: f64) -> bool {
         self.start <= t && t <= self.end
     }

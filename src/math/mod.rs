@@ -1,7 +1,7 @@
-//! Plain data: scalars, vectors, segments, rectangles and poses.
+//! Scalars, vectors, segments, rectangles and poses.
 //!
 //! Every operation has one fixed order of evaluation, so that the same input
-//! gives the same bits on every platform. Nothing here knows about frusta.
+//! gives the same bits on every platform. Nothing here depends on frusta.
 
 pub mod hex;
 mod interval;

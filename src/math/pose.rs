@@ -1,12 +1,11 @@
-//! Where a frame stands in the world.
+//! Poses: frames in the world.
 
 use super::Vec3;
 
-/// A frame: an origin and three linearly independent axes.
+/// A frame in the world: an origin and three linearly independent axes.
 ///
-/// The frame coordinates of a point `p` are `axes[k] . (p - origin)`. No unit
-/// length, no right angles and no handedness are assumed: integer axes keep a
-/// rotated frame exact.
+/// The frame coordinates of a point `p` are `axes[k] . (p - origin)`. The axes may have
+/// any length, angle and handedness: integer axes keep a rotated frame exact.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Pose {
@@ -17,7 +16,7 @@ pub struct Pose {
 }
 
 impl Pose {
-    /// The frame that is the world.
+    /// The pose whose frame coordinates are world coordinates.
     pub const IDENTITY: Pose = Pose {
         origin: Vec3::new(0.0, 0.0, 0.0),
         axes: [
@@ -27,7 +26,7 @@ impl Pose {
         ],
     };
 
-    /// From an origin and three axes.
+    /// Creates a pose from an origin and three axes.
     #[must_use]
     pub const fn new(origin: Vec3<f64>, axes: [Vec3<f64>; 3]) -> Self {
         Self { origin, axes }
@@ -38,8 +37,8 @@ impl Pose {
         *self == Self::IDENTITY
     }
 
-    /// Frame coordinates of a point, rounded: for drawing and for plain
-    /// arithmetic, never for exact decisions.
+    /// The frame coordinates of a point, rounded. They serve drawing and plain
+    /// arithmetic; no exact decision uses them.
     #[must_use]
     #[inline(always)]
     pub fn to_frame(&self, p: Vec3<f64>) -> Vec3<f64> {
@@ -61,7 +60,7 @@ impl Pose {
         let squares = [a.dot(a), b.dot(b), c.dot(c)];
         let volume = squares[0] * squares[1] * squares[2];
         let size = q.x.abs().max(q.y.abs()).max(q.z.abs());
-        // Within these bounds nothing overflows, and what underflows is below
+        // Within these bounds nothing overflows, and a product that underflows is less than
         // 1e-20 of the result.
         let moderate =
             squares.iter().all(|s| (1e-40..1e40).contains(s)) && (1e-200..1e100).contains(&size);
@@ -71,15 +70,15 @@ impl Pose {
         })
     }
 
-    /// The point whose frame coordinates these are, rounded: the paper's
-    /// inverse transform (step 4).
+    /// The point with the given frame coordinates, rounded: the paper's inverse
+    /// transform (step 4).
     ///
     /// Error: the offset from the origin is exact for axes that differ from
     /// the given ones by at most about `100 u` of each one's length, whatever
     /// their lengths; for axes at right angles that is about `100 u` of the
     /// offset's length. One more rounding adds the origin. A coordinate beyond
-    /// the range of doubles is infinite. Axes that are dependent in this sense
-    /// give some point far away; NaN comes only from NaN or infinity.
+    /// the range of `f64` is infinite. Axes that are dependent in this sense
+    /// give a point far away; the result is NaN only if an input is NaN or infinite.
     ///
     /// ```
     /// use frusta::{Pose, Vec3};
@@ -116,7 +115,7 @@ impl Pose {
     }
 }
 
-/// The least `e` with `|x| < 2^e`; 0 for what has none.
+/// The least `e` with `|x| < 2^e`; 0 for zero, infinity and NaN.
 fn exponent(x: f64) -> i32 {
     if x == 0.0 || !x.is_finite() {
         0
@@ -144,7 +143,7 @@ fn solve(mut a: [[f64; 3]; 3], mut b: [f64; 3]) -> [f64; 3] {
             r.swap(k, column);
         }
         order.swap(k, column);
-        // A tinier pivot means dependent axes; this one keeps all finite: each
+        // A smaller pivot means dependent axes; this one keeps everything finite: each
         // unknown is at most its own quotient plus the unknowns after it.
         if a[k][k].abs() < 1e-200 {
             a[k][k] = 1e-200_f64.copysign(a[k][k]);
@@ -179,7 +178,7 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    /// Axes at right angles from a quaternion, of the length its square has.
+    /// Orthogonal axes from a quaternion, as long as its squared length.
     fn turned([a, b, c, d]: [f64; 4]) -> [Vec3<f64>; 3] {
         [
             [
@@ -222,9 +221,8 @@ mod tests {
             a in prop::array::uniform3(-1.0..1.0), b in prop::array::uniform3(-1.0..1.0),
             mix in prop::array::uniform2(-1.0..1.0), e in 10i32..45, q in prop::array::uniform3(-1.0..1.0),
         ) {
-            // The third axis almost in the plane of the others. What is promised
-            // is a residual like that of axes some ulps off, which Cramer's rule
-            // alone does not keep.
+            // The third axis is almost in the plane of the others. The promise is a residual
+            // like that of axes some ulps off, which Cramer's rule alone does not keep.
             let (a, b) = (Vec3::from(a), Vec3::from(b));
             let c = a * mix[0] + b * mix[1] + a.cross(b) * libm::ldexp(1.0, -e);
             prop_assume!([a, b, c].iter().all(|v| v.dot(*v) > 1e-2));

@@ -1,4 +1,4 @@
-//! The two scalar types that points may have.
+//! The two scalar types of points.
 
 use std::fmt::{self, Debug, Display};
 use std::ops::{Add, Div, Mul, Neg, Sub};
@@ -6,19 +6,19 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 mod sealed {
     use super::Real;
 
-    /// Something that is kept once for each scalar type; generic code takes its
-    /// own with `T::pick`.
+    /// A pair of values, one for each scalar type; generic code selects its own with
+    /// `T::pick`.
     pub trait PerReal {
-        /// What is kept.
+        /// The type of the value for `T`.
         type Of<T: Real>;
-        /// That for `f32`.
+        /// The value for `f32`.
         fn single(&self) -> &Self::Of<f32>;
-        /// That for `f64`.
+        /// The value for `f64`.
         fn double(&self) -> &Self::Of<f64>;
     }
 
     pub trait Sealed: Sized {
-        /// The one of the two that is made for this type.
+        /// The value of the pair for this scalar type.
         fn pick<P: PerReal>(both: &P) -> &P::Of<Self>
         where
             Self: Real;
@@ -39,7 +39,7 @@ mod sealed {
 
 pub(crate) use sealed::PerReal;
 
-/// A scalar of a point: `f32` or `f64`. Sealed.
+/// The scalar type of a point: `f32` or `f64`. The trait is sealed.
 pub trait Real:
     sealed::Sealed
     + Copy
@@ -73,7 +73,7 @@ pub trait Real:
     fn to_f64(self) -> f64;
     /// The nearest value, ties to even; infinite beyond the range.
     fn from_f64(value: f64) -> Self;
-    /// Neither infinite nor NaN.
+    /// Whether the value is neither infinite nor NaN.
     fn is_finite(self) -> bool;
     /// The magnitude.
     fn abs(self) -> Self;
@@ -120,11 +120,11 @@ macro_rules! real {
     };
 }
 
-real!(f32, 5.960464477539063e-8, 1.401298464324817e-45);
-real!(f64, 1.1102230246251565e-16, 5e-324);
+real!(f32, f32::EPSILON as f64 / 2.0, f32::from_bits(1) as f64);
+real!(f64, f64::EPSILON / 2.0, f64::from_bits(1));
 
-/// A scalar in a message: the shortest text that reads back, with an exponent
-/// where it would be long. `Display` of 1e300 has 301 digits.
+/// Displays a scalar in a message: the shortest text that reads back, with an exponent if
+/// it would be long otherwise. (`Display` of 1e300 has 301 digits.)
 pub(crate) struct Short<T>(pub(crate) T);
 
 impl<T: Real> fmt::Display for Short<T> {

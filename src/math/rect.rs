@@ -1,22 +1,22 @@
 //! Axis-parallel rectangles in a frustum's frame.
 
-/// Four numbers, one for each side of a frustum: the bounds of a rectangle, or
-/// the slopes of four sides.
+/// A value for each of the four sides of a frustum: the bounds of a rectangle, or
+/// slopes.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Rect {
-    /// The side of smaller `x`.
+    /// The side at smaller `x`.
     pub left: f64,
-    /// The side of larger `x`.
+    /// The side at larger `x`.
     pub right: f64,
-    /// The side of smaller `y`.
+    /// The side at smaller `y`.
     pub bottom: f64,
-    /// The side of larger `y`.
+    /// The side at larger `y`.
     pub top: f64,
 }
 
 impl Rect {
-    /// From the four sides.
+    /// Creates a rectangle from its four sides.
     #[must_use]
     pub const fn new(left: f64, right: f64, bottom: f64, top: f64) -> Self {
         Self {
@@ -30,11 +30,11 @@ impl Rect {
     /// The rectangle centred on the origin with these half-extents.
     #[must_use]
     pub const fn centred(half_width: f64, half_height: f64) -> Self {
-        // Not the sign: a half of 0 would give -0.
+        // Not negation: it would turn 0 into -0.
         Self::new(0.0 - half_width, half_width, 0.0 - half_height, half_height)
     }
 
-    /// The sides in the order left, right, bottom, top.
+    /// The four sides in the order left, right, bottom, top.
     #[must_use]
     pub const fn to_array(self) -> [f64; 4] {
         [self.left, self.right, self.bottom, self.top]

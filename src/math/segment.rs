@@ -34,11 +34,11 @@ pub struct Segment<T> {
 /// A coordinate of a segment or of a point is infinite or not a number.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NonFinite {
-    /// Which end of the segment holds it; `None` for a point.
+    /// The segment's end with the coordinate; `None` for a point.
     pub end: Option<End>,
-    /// Which coordinate it is.
+    /// The axis of the coordinate.
     pub axis: Axis,
-    /// The value found.
+    /// The value of the coordinate.
     pub value: f64,
 }
 
@@ -62,9 +62,9 @@ impl std::error::Error for NonFinite {}
 /// A coordinate in a slice of segments is infinite or not a number.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NonFiniteAt {
-    /// The segment's place in the slice.
+    /// The segment's index in the slice.
     pub index: usize,
-    /// What it holds.
+    /// The coordinate and its value.
     pub found: NonFinite,
 }
 
@@ -81,7 +81,7 @@ impl std::error::Error for NonFiniteAt {
 }
 
 impl NonFinite {
-    /// Names a point's first coordinate that is infinite or NaN.
+    /// Fails with a point's first coordinate that is infinite or NaN.
     pub(crate) fn check<T: Real>(end: Option<End>, point: Vec3<T>) -> Result<(), Self> {
         for axis in Axis::ALL {
             let value = point[axis as usize].to_f64();
@@ -94,7 +94,7 @@ impl NonFinite {
 }
 
 impl<T: Real> Segment<T> {
-    /// From two points.
+    /// Creates a segment from two points.
     #[must_use]
     #[inline(always)]
     pub fn new(start: impl Into<Vec3<T>>, end: impl Into<Vec3<T>>) -> Self {
@@ -104,7 +104,7 @@ impl<T: Real> Segment<T> {
         }
     }
 
-    /// The same points, the other way round.
+    /// The segment with its ends swapped.
     #[must_use]
     #[inline]
     pub fn reversed(self) -> Self {
@@ -127,7 +127,7 @@ impl<T: Real> Segment<T> {
     /// Checks that all six coordinates are finite.
     ///
     /// # Errors
-    /// Names the first coordinate that is infinite or NaN.
+    /// The first coordinate that is infinite or NaN.
     pub fn check_finite(&self) -> Result<(), NonFinite> {
         for (end, point) in [(End::Start, self.start), (End::End, self.end)] {
             NonFinite::check(Some(end), point)?;

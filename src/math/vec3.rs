@@ -1,10 +1,10 @@
-//! Three coordinates.
+//! Vectors of three coordinates.
 
 use super::{Real, Short};
 use std::fmt;
 use std::ops::{Add, Index, IndexMut, Mul, Neg, Sub};
 
-/// A coordinate's name.
+/// The axis of a coordinate.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Axis {
@@ -17,7 +17,7 @@ pub enum Axis {
 }
 
 impl Axis {
-    /// All three, in order.
+    /// All three axes, in order.
     pub const ALL: [Axis; 3] = [Axis::X, Axis::Y, Axis::Z];
 }
 
@@ -39,16 +39,16 @@ impl fmt::Display for Axis {
     ))
 )]
 pub struct Vec3<T> {
-    /// First coordinate.
+    /// The first coordinate.
     pub x: T,
-    /// Second coordinate.
+    /// The second coordinate.
     pub y: T,
-    /// Third coordinate.
+    /// The third coordinate.
     pub z: T,
 }
 
 impl<T> Vec3<T> {
-    /// From three coordinates.
+    /// Creates a vector from three coordinates.
     #[must_use]
     #[inline(always)]
     pub const fn new(x: T, y: T, z: T) -> Self {

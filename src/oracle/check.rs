@@ -1,4 +1,4 @@
-//! A clipper's answer held against the truth, and against itself.
+//! Comparisons of a clipper's answer with the exact one, and with the clipper itself.
 //!
 //! Every comparison is exact: a coordinate is compared with a rational by
 //! multiplying out. Zeros of either sign are the same value, except where an
@@ -15,7 +15,7 @@ use crate::math::{End, NonFinite, Real, Segment, Vec3};
 use num_bigint::BigInt;
 use num_rational::BigRational;
 
-/// Everything that is wrong with an answer.
+/// All violations in an answer; empty if it is right.
 ///
 /// # Errors
 /// A coordinate of the segment is infinite or NaN.
@@ -31,8 +31,8 @@ pub fn check<T: Real>(
 }
 
 impl Oracle {
-    /// Everything that is wrong with an answer, given the truth about the same
-    /// segment.
+    /// All violations in an answer, given the exact one for the same segment; empty if it
+    /// is right.
     pub fn check<T: Real>(
         &self,
         truth: &OracleClip,
@@ -124,7 +124,7 @@ impl Reach {
     }
 }
 
-/// One end of an answer and the truth about it.
+/// One end of an answer, and the exact one.
 struct EndCheck<'a, T> {
     oracle: &'a Oracle,
     reach: &'a Reach,
@@ -213,9 +213,9 @@ impl<T: Real> EndCheck<'_, T> {
         }
     }
 
-    /// An inward point may leave the end's `z` only where no inward point has
-    /// it: the `z` may not be a value of `T`, or no value of `T` may lie between
-    /// the bounds there.
+    /// An inward point may have another `z` than the end only if no inward point has
+    /// that `z`: it may not be a value of `T`, or no value of `T` may lie between the
+    /// bounds there.
     fn depth_is_binding(&self, z: T) -> bool {
         let free = self.accuracy == Accuracy::Inward
             && self.is.inward
@@ -267,8 +267,8 @@ impl<T: Real> EndCheck<'_, T> {
     }
 }
 
-/// G5: what is wrong with the answer for the reversed segment, given the answer
-/// for the segment itself.
+/// The violation of G5 by the answer for the reversed segment, given the answer for the
+/// segment itself; `None` if there is none.
 pub fn check_swapped<T: Real>(
     answer: &SegmentClip<T>,
     of_reversed: &SegmentClip<T>,
@@ -276,11 +276,16 @@ pub fn check_swapped<T: Real>(
     (!is_mirrored(answer, of_reversed)).then(|| Violation {
         kind: ViolationKind::Swapped,
         end: None,
-        detail: format!("{} against {}", summary(answer), summary(of_reversed)),
+        detail: format!(
+            "{} and, reversed, {}",
+            summary(answer),
+            summary(of_reversed)
+        ),
     })
 }
 
-/// Whether one answer is the other with entry and exit swapped.
+/// Whether one answer is the other with entry and exit swapped, except for the parameters,
+/// which are rounded from either end.
 pub fn is_mirrored<T: Real>(answer: &SegmentClip<T>, of_reversed: &SegmentClip<T>) -> bool {
     let same_part = |a: &Part<T>, b: &Part<T>| {
         a.coplanar == b.coplanar && mirrored(&a.entry, &b.exit) && mirrored(&a.exit, &b.entry)
@@ -293,9 +298,9 @@ pub fn is_mirrored<T: Real>(answer: &SegmentClip<T>, of_reversed: &SegmentClip<T
         }
 }
 
-/// G6: what is wrong with the answer for the segment between the two points of
-/// an `Inward` answer, both of them inward; `None` also for an answer that
-/// promises nothing.
+/// The violation of G6 by the answer for the segment between the two points of an
+/// `Inward` answer; `None` if there is none, or if an end of the answer is not inward,
+/// so that nothing is promised.
 pub fn check_idempotent<T: Real>(
     answer: &SegmentClip<T>,
     clip: impl FnOnce(&Segment<T>) -> Result<SegmentClip<T>, NonFinite>,
@@ -323,7 +328,7 @@ pub fn check_idempotent<T: Real>(
     })
 }
 
-/// Equal but for the parameter, which is rounded in its own direction.
+/// Whether two ends are equal except for the parameter, which is rounded from its own start.
 fn mirrored<T: Real>(a: &PartEnd<T>, b: &PartEnd<T>) -> bool {
     same_bits(a.point, b.point)
         && a.clipped == b.clipped

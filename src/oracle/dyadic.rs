@@ -1,8 +1,8 @@
-//! Integers times powers of two: what doubles are, and all that sums and
-//! products of doubles can become.
+//! Integers times powers of two: the values of `f64`, and of all their sums and
+//! products.
 //!
 //! Slow and obvious: a big integer and an exponent, no normal form, no
-//! rounding, no limits. Every finite double, subnormals included, converts
+//! rounding, no limits. Every finite `f64`, subnormals included, converts
 //! exactly.
 
 use num_bigint::{BigInt, Sign};
@@ -32,7 +32,7 @@ impl Dyadic {
         Self::new(BigInt::one(), exponent)
     }
 
-    /// The value of a finite double; `None` for infinities and NaN.
+    /// The value of a finite `f64`; `None` for infinities and NaN.
     pub(crate) fn from_f64(value: f64) -> Option<Self> {
         if !value.is_finite() {
             return None;
@@ -55,7 +55,7 @@ impl Dyadic {
         Some(Self::new(integer, exponent + i64::from(zeros)))
     }
 
-    /// The exponent, but of zero, which has none of its own.
+    /// The exponent; `None` for zero, which has none of its own.
     pub(crate) fn exponent(&self) -> Option<i64> {
         (!self.is_zero()).then_some(self.exponent)
     }

@@ -1,13 +1,13 @@
-//! A frustum in its own frame, exactly: corners, edges, and where it never ends.
+//! An exact frustum in its own frame: corners, edges and infinite rays.
 //!
 //! In frame coordinates `x_k = a_k . (p - o)` a frustum is the hull of two
 //! rectangles, so its corners are the numbers that define it, and a point or a
-//! vector of the world gets there without a division. An infinite one is the hull
+//! vector of the world is transformed without a division. An infinite one is the hull
 //! of a rectangle's corners, plus the cone of four rays: at depth t its section is
 //! the near rectangle plus t times the rectangle of slopes.
 //!
 //! The way back is `p = o + (x_0 a_1 x a_2 + x_1 a_2 x a_0 + x_2 a_0 x a_1) / det`;
-//! whoever goes it multiplies everything by `det` instead.
+//! callers multiply everything by `det` instead of dividing.
 
 use super::dyadic::Dyadic;
 use super::vector::{
@@ -16,14 +16,14 @@ use super::vector::{
 use crate::frustum::{EndRect, Shape};
 use crate::math::{Pose, Rect, Vec3};
 
-/// A frustum in its frame, and how the frame stands in the world.
+/// A frustum in its frame, with the frame's position in the world.
 #[derive(Debug)]
 pub(crate) struct Frame {
     origin: Vector,
     pub(crate) axes: [Vector; 3],
     /// The near end's four, then the far end's if there is one.
     pub(crate) corners: Vec<Vector>,
-    /// From each near corner to the far one, or for ever.
+    /// From each near corner to the far one, or the direction of the ray.
     pub(crate) sides: [Vector; 4],
     is_infinite: bool,
 }
@@ -32,7 +32,7 @@ pub(crate) struct Frame {
 #[derive(Debug)]
 pub(crate) struct Edge {
     pub(crate) start: Vector,
-    /// To its end, if it has one.
+    /// The vector to its end, or the direction of a ray.
     pub(crate) along: Vector,
     pub(crate) has_end: bool,
 }
@@ -76,30 +76,30 @@ impl Frame {
         self.axes.each_ref().map(|axis| dot(axis, v))
     }
 
-    /// The world's normal to a plane of the frame with this one: `n . x` is it times
-    /// `p - o`.
+    /// The normal in the world of a plane with this normal in the frame: its inner
+    /// product with `p - o` is `n . x`.
     pub(crate) fn normal_in_world(&self, n: &Vector) -> Vector {
         combine(n, &self.axes)
     }
 
-    /// What a plane's normal in the world gives at the frame's origin.
+    /// The inner product of a normal in the world with the frame's origin.
     pub(crate) fn at_origin(&self, normal: &Vector) -> Dyadic {
         dot(normal, &self.origin)
     }
 
-    /// Every direction that an edge has.
+    /// The directions of all edges.
     pub(crate) fn directions(&self) -> impl Iterator<Item = Vector> {
         let across = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
         let across = across.map(|v| v.map(exact));
         across.into_iter().chain(self.sides.clone())
     }
 
-    /// In which directions it never ends.
+    /// The directions of the infinite edges.
     pub(crate) fn rays(&self) -> &[Vector] {
         if self.is_infinite { &self.sides } else { &[] }
     }
 
-    /// The edges, those that are a point left out.
+    /// The edges, without those that are a point.
     fn edges(&self) -> Vec<Edge> {
         let ends = self.corners.chunks(4).flat_map(|c| {
             let pairs = [[0, 1], [2, 3], [0, 2], [1, 3]];

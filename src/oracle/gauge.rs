@@ -1,9 +1,9 @@
-//! How far rounded points are from an exact one, as fractions of an ulp.
+//! Deviations of rounded points from an exact one, as fractions of an ulp.
 //!
-//! The exact coordinate is kept as the sum of two doubles, `high` the nearest one
-//! and `low` the nearest to what is left: a relative error below 2^-105. For a
+//! The exact coordinate is represented by the sum of two `f64`, `high` the nearest one
+//! and `low` the nearest to the rest, with a relative error below 2^-105. For a
 //! point near it `point - high` is exact, so the deviation has a relative error
-//! of a few roundoffs, and one below 2^-50 ulp. All but the last step is
+//! of a few roundoffs, and an absolute one below 2^-50 ulp. All steps except the last are
 //! rational arithmetic.
 
 use super::OracleEnd;
@@ -13,18 +13,18 @@ use crate::math::{Real, Vec3};
 use num_rational::BigRational;
 use num_traits::Zero;
 
-/// An exact point, to measure rounded ones by.
+/// An exact point, which measures the deviations of rounded ones.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Gauge {
     high: [f64; 3],
     low: [f64; 3],
-    /// In units of the scalar type; 0 where the coordinate is zero, which has no
-    /// unit of its own.
+    /// The ulp of the scalar type at each coordinate; 0 for a zero coordinate, which has
+    /// no ulp of its own.
     ulp: [f64; 3],
 }
 
 impl Gauge {
-    /// For points of `T`.
+    /// Creates a gauge for points of `T`.
     pub fn new<T: Real>(end: &OracleEnd) -> Self {
         let exact = &end.point;
         let high = exact.each_ref().map(round_nearest::<f64>);
@@ -34,13 +34,15 @@ impl Gauge {
         Self { high, low, ulp }
     }
 
-    /// The largest difference in a coordinate.
+    /// The largest difference in a coordinate, rounded: its relative error is a few
+    /// roundoffs, in either direction.
     pub fn deviation<T: Real>(&self, point: Vec3<T>) -> f64 {
         self.differences(point).into_iter().fold(0.0, f64::max)
     }
 
-    /// The same, each coordinate's in units in the last place of `T` at the exact
-    /// coordinate; at the rounded one if the exact one is zero.
+    /// The largest difference in a coordinate, each in units in the last place of `T` at
+    /// the exact coordinate; at the rounded one if the exact one is zero. It is rounded as
+    /// [`Gauge::deviation`] is.
     pub fn deviation_in_ulps<T: Real>(&self, point: Vec3<T>) -> f64 {
         let differences = self.differences(point);
         let ulps = [0, 1, 2].map(|k| {
@@ -61,7 +63,7 @@ impl Gauge {
     }
 }
 
-/// The double nearest to `exact - high`.
+/// The `f64` nearest to `exact - high`.
 fn left_over(exact: &BigRational, high: f64) -> f64 {
     let Some(high) = Dyadic::from_f64(high) else {
         return 0.0;
@@ -87,7 +89,7 @@ mod tests {
 
     #[test]
     fn thirds_are_a_third_of_an_ulp_off() {
-        // 1/3 in binary is 0.0101...: what is cut off is a third of the last place.
+        // 1/3 in binary is 0.0101...: rounding cuts off a third of the last place.
         let third = gauge::<f64>([1, 0, 0], 3);
         let near = Vec3::new(1.0 / 3.0, 0.0, 0.0);
         let ulps = third.deviation_in_ulps(near);

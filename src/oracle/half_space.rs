@@ -1,11 +1,11 @@
 //! A frustum's faces as linear inequalities over world coordinates, exactly.
 //!
-//! Written down from the definition: frame coordinates are `a_k . (p - o)`, and
+//! They follow from the definition: frame coordinates are `a_k . (p - o)`, and
 //! the frustum is the closed convex hull of two rectangles (or a rectangle that
 //! grows with depth). Between two rectangles at `zn` and `zf` the right bound at
-//! `z` is `(rn (zf - z) + rf (z - zn)) / (zf - zn)`; times `|zf - zn|` there is
-//! nothing left to divide. Ends that shrink to an edge or a point need nothing
-//! special: the inequalities of all faces together hold there and nowhere beyond.
+//! `z` is `(rn (zf - z) + rf (z - zn)) / (zf - zn)`; multiplied by `|zf - zn|` it has no
+//! division. Ends that shrink to an edge or a point are no special case: the
+//! inequalities of all faces together hold there and nowhere beyond.
 
 use super::dyadic::Dyadic;
 use super::vector::{Vector, align, dot, exact, exact_point, plus, times};
@@ -65,8 +65,8 @@ pub(crate) fn half_spaces(frustum: &Frustum) -> Vec<HalfSpace> {
 
 type Bounds = Vec<(Face, Linear)>;
 
-/// Which sides a rectangle has: the face, its index in a rectangle's array, the
-/// coordinate it bounds, and whether from above.
+/// The sides of a rectangle: the face, its index in the rectangle's array, the
+/// coordinate it bounds, and whether it is an upper bound.
 const SIDES: [(Face, usize, usize, bool); 4] = [
     (Face::Left, 0, 0, false),
     (Face::Right, 1, 0, true),
@@ -87,8 +87,15 @@ fn finite(near: &EndRect, far: &EndRect, xy: [&Linear; 2], z: &Linear) -> (Bound
         let at_near = exact(near.rect.to_array()[side]);
         let at_far = exact(far.rect.to_array()[side]);
         let bound = to_far.times(&at_near).add(&from_near.times(&at_far));
-        let room = bound.add(&xy[coordinate].times(&length).negated());
-        (face, if above { room } else { room.negated() })
+        let below_bound = bound.add(&xy[coordinate].times(&length).negated());
+        (
+            face,
+            if above {
+                below_bound
+            } else {
+                below_bound.negated()
+            },
+        )
     });
     let ends = vec![(Face::Near, from_near), (Face::Far, to_far)];
     (ends, sides.into())
@@ -110,8 +117,15 @@ fn infinite(
         let at_near = exact(near.rect.to_array()[side]);
         let slope = exact(slopes.to_array()[side]);
         let bound = depth.times(&slope).plus(&at_near);
-        let room = bound.add(&xy[coordinate].negated());
-        (face, if above { room } else { room.negated() })
+        let below_bound = bound.add(&xy[coordinate].negated());
+        (
+            face,
+            if above {
+                below_bound
+            } else {
+                below_bound.negated()
+            },
+        )
     });
     (vec![(Face::Near, depth)], sides.into())
 }

@@ -1,4 +1,4 @@
-//! The representable points near an exact one, and which of them are inside.
+//! Representable points inside the frustum near an exact point.
 //!
 //! A boundary function is linear, so at the points of a small lattice of
 //! candidates it is an offset plus one term for each coordinate. The terms are
@@ -12,7 +12,7 @@ use crate::frustum::FaceSet;
 use crate::math::{Real, Vec3};
 use num_rational::BigRational;
 
-/// How far an inward point may be from the exact one, in ulps a coordinate.
+/// The largest distance of an inward point from the exact one, in ulps per coordinate.
 pub(crate) const INWARD_ULPS: u32 = 2;
 
 /// The candidates for a coordinate, those next to the exact value first.
@@ -26,9 +26,8 @@ fn nearest_first<T: Real>(exact: &BigRational) -> Vec<T> {
 }
 
 impl Oracle {
-    /// A representable point within two ulps a coordinate of the exact one that
-    /// satisfies every face, if there is one. With `depth`, only points with
-    /// exactly that `z` count.
+    /// A representable point of the frustum within two ulps per coordinate of the exact
+    /// one, if there is one. With `depth`, only points with exactly that `z` count.
     pub(crate) fn inward_point<T: Real>(
         &self,
         exact: &[BigRational; 3],
@@ -75,10 +74,10 @@ impl Oracle {
             .collect()
     }
 
-    /// By how many ulps a point inside could still move outwards: for each face
-    /// of the set the steps to its plane along the coordinate that gets there
-    /// soonest, and the largest of these. Negative for a point outside. A
-    /// figure to look at, rounded.
+    /// The number of ulps by which a point inside could still move outwards, rounded to
+    /// nearest: for each face of the set the steps to its plane along the coordinate with
+    /// the fewest, and the largest of these. Negative for a point outside. It is a measure
+    /// for reports, not a bound.
     pub fn room_in_ulps<T: Real>(&self, faces: FaceSet, point: Vec3<T>) -> f64 {
         let exact = super::exact_point(point.to_f64());
         let ulps = point.to_array().map(|c| {
@@ -90,7 +89,7 @@ impl Oracle {
         for h in self.half_spaces.iter().filter(|h| faces.contains(h.face)) {
             let value = h.value_at(&exact);
             let step = h.normal.iter().zip(&ulps);
-            // What one ulp along the steepest coordinate changes.
+            // The change by one ulp along the steepest coordinate.
             let step = step.filter_map(|(n, ulp)| ulp.as_ref().map(|u| (n * u).abs()));
             let Some(steepest) = step.max().filter(|s| !s.is_zero()) else {
                 continue;

@@ -1,32 +1,33 @@
-//! The independent truth: clipping by rational arithmetic, slow and obvious.
+//! An independent reference implementation: clipping and classification by rational arithmetic,
+//! slow and obvious.
 //!
-//! A double is an integer times a power of two, so every boundary function of a
-//! frustum is one as well, exactly, at every representable point. Along a segment
+//! Every finite `f64` is an integer times a power of two, and so, exactly, is the value of every
+//! boundary function of a frustum at every representable point. Along a segment
 //! `p + t (q - p)` a boundary function `f` is linear: it is zero at
 //! `t = f(p) / (f(p) - f(q))`. Clipping is then
 //!
 //! ```text
 //! low = 0, high = 1
 //! for each face:
-//!     f(p) < 0 and f(q) < 0    nothing is inside
+//!     f(p) < 0 and f(q) < 0    the segment is outside
 //!     f(p) < 0 <= f(q)         low = max(low, t)
 //!     f(p) >= 0 > f(q)         high = min(high, t)
-//! nothing is inside if low > high
+//! the segment is outside if low > high
 //! a face belongs to an end's set if its function is zero there
 //! ```
 //!
-//! on fractions compared by cross multiplication. No floating-point number is
-//! ever compared or computed with, and nothing is shared with the fast code that
-//! is measured against this. Any finite doubles will do: subnormals, `1e300`,
-//! both at once. A segment of zero length is its point; `0 / 0` does not arise,
-//! because a face with `f(p) = f(q)` never bounds the interval.
+//! with fractions compared by cross multiplication. No floating-point operation is
+//! used, and nothing is shared with the fast code that is compared with this. Any
+//! finite input is valid: subnormals, `1e300`, both at once. A segment of zero length
+//! is its point; `0 / 0` does not arise, because a face with `f(p) = f(q)` never bounds
+//! the interval.
 //!
-//! [`Oracle::check`] holds a clipper's answer against the truth and names the
-//! guarantee that it breaks; [`check_swapped`] and [`check_idempotent`] compare
-//! a clipper with itself.
+//! [`Oracle::check`] compares a clipper's answer with the exact one and names each
+//! guarantee that it violates; [`check_swapped`] and [`check_idempotent`] compare a clipper
+//! with itself.
 //!
-//! [`Oracle::classify`] and [`Oracle::intersects`] say how bounding volumes lie to a
-//! frustum, on integers likewise.
+//! [`Oracle::classify`] and [`Oracle::intersects`] give the exact position of bounding volumes
+//! relative to a frustum, by integer arithmetic likewise.
 
 mod check;
 mod dyadic;
@@ -60,7 +61,7 @@ use num_traits::{One, Signed, Zero};
 use std::sync::OnceLock;
 use vector::exact_point;
 
-/// A frustum made ready for exact questions.
+/// A frustum prepared for exact queries.
 #[derive(Debug)]
 pub struct Oracle {
     half_spaces: Vec<HalfSpace>,
@@ -68,7 +69,7 @@ pub struct Oracle {
     world_ends: Option<[Option<f64>; 2]>,
     pose: Pose,
     shape: Shape,
-    /// What volumes need, made for the first one.
+    /// Prepared for the first volume.
     separation: OnceLock<separation::Separation>,
     nearest: OnceLock<nearest::Nearest>,
 }
@@ -76,31 +77,31 @@ pub struct Oracle {
 /// The exact result of clipping a segment.
 #[derive(Clone, Debug, PartialEq)]
 pub struct OracleClip {
-    /// How the segment lies to the frustum.
+    /// The position of the segment relative to the frustum.
     pub class: Class,
-    /// What of it is in the frustum; `None` exactly if the class is `Outside`.
+    /// The part in the frustum; `None` exactly if the class is `Outside`.
     pub part: Option<OraclePart>,
 }
 
-/// The part of a segment that is in a frustum, exactly.
+/// The exact part of a segment in a frustum.
 #[derive(Clone, Debug, PartialEq)]
 pub struct OraclePart {
-    /// Where the segment enters.
+    /// The end at which the segment enters.
     pub entry: OracleEnd,
-    /// Where it leaves.
+    /// The end at which it leaves.
     pub exit: OracleEnd,
     /// The faces whose planes contain the whole segment.
     pub coplanar: FaceSet,
 }
 
-/// One end of that part, exactly. The fractions are not in lowest terms.
+/// One exact end of that part. The fractions are not in lowest terms.
 #[derive(Clone, Debug, PartialEq)]
 pub struct OracleEnd {
-    /// The segment's parameter.
+    /// The parameter on the segment.
     pub t: BigRational,
     /// The point.
     pub point: [BigRational; 3],
-    /// Whether the segment goes on beyond this end.
+    /// Whether the segment continues beyond this end.
     pub clipped: bool,
     /// The faces whose planes contain the point.
     pub faces: FaceSet,
@@ -128,14 +129,14 @@ pub fn clip(frustum: &Frustum, segment: &Segment<f64>) -> Result<OracleClip, Non
     Oracle::new(frustum).clip(segment)
 }
 
-/// Whether a point satisfies every face exactly; no point that is not finite
-/// does.
+/// Whether a point is in the closed frustum, exactly; false for a point that is not
+/// finite.
 pub fn contains(frustum: &Frustum, point: Vec3<f64>) -> bool {
     Oracle::new(frustum).contains(point)
 }
 
 impl Oracle {
-    /// Writes down the frustum's faces exactly.
+    /// Prepares the exact half-spaces of a frustum.
     pub fn new(frustum: &Frustum) -> Self {
         let world_ends = frustum.pose().is_identity().then(|| match frustum.shape() {
             Shape::Finite { near, far } => [Some(near.z), Some(far.z)],
@@ -151,8 +152,8 @@ impl Oracle {
         }
     }
 
-    /// Whether a point satisfies every face exactly; no point that is not
-    /// finite does.
+    /// Whether a point is in the closed frustum, exactly; false for a point that is not
+    /// finite.
     pub fn contains<T: Real>(&self, point: Vec3<T>) -> bool {
         let exact = exact_point(point.to_f64());
         point.is_finite()
@@ -277,7 +278,7 @@ impl Fraction {
         }
     }
 
-    /// Where the line from `fp` at 0 to `fq` at 1 is zero; `fp != fq`.
+    /// The zero of the line from `fp` at 0 to `fq` at 1; `fp != fq`.
     fn root(fp: &Dyadic, fq: &Dyadic) -> Self {
         let (fp, fq, _) = fp.aligned(fq);
         let difference = &fp - fq;

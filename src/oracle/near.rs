@@ -1,12 +1,12 @@
-//! Whether a segment is one of those where wrong answers live: within a few ulp
-//! of a singular one.
+//! Nearly singular segments: those within a few ulp of a singular one, for which wrong answers are
+//! most likely.
 
 use super::dyadic::Dyadic;
 use super::vector::exact_point;
 use super::{Fraction, Oracle};
 use crate::math::{Real, Segment, Vec3};
 
-/// How many ulps off still counts as near.
+/// The largest distance that counts as near, in ulps.
 const ULPS: i64 = 4;
 
 /// A boundary function along a segment, and by how much it changes if every
@@ -16,8 +16,8 @@ struct Along {
     slacks: [Dyadic; 2],
 }
 
-/// How a point lies to a face: beyond it by more than the slack, on it within
-/// the slack, or inside.
+/// The position of a point relative to a face: beyond it by more than the slack, on it
+/// within the slack, or inside.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Side {
     Beyond,
@@ -35,7 +35,7 @@ fn side(value: &Dyadic, slack: &Dyadic) -> Side {
     }
 }
 
-/// Whether on at least `least` faces and beyond none.
+/// Whether a point is on at least `least` faces and beyond none.
 fn on_surface(sides: impl Iterator<Item = Side>, least: usize) -> bool {
     let mut on = 0;
     for side in sides {
@@ -55,12 +55,12 @@ impl Oracle {
     /// - an end is on a face, or
     /// - it passes through an edge or a vertex.
     ///
-    /// Crossing a face somewhere in its middle is not singular. A point counts as
-    /// on a face if it is off its plane by no more than what such a move amounts to
-    /// there, and beyond no other face by more than that. A zero has the ulp of the
-    /// point's largest coordinate.
+    /// A crossing in the middle of a face is not singular. A point counts as on a face if
+    /// its distance from the plane is at most the effect of such a move, and it is beyond
+    /// no other face by more than that. A zero coordinate has the ulp of the point's
+    /// largest one.
     ///
-    /// All in rational arithmetic; a segment that is not finite is near nothing.
+    /// The test uses rational arithmetic; it is false for a segment that is not finite.
     pub fn is_near<T: Real>(&self, segment: &Segment<T>) -> bool {
         if segment.check_finite().is_err() {
             return false;
@@ -85,7 +85,7 @@ impl Oracle {
     }
 }
 
-/// Whether two faces are met, where one of them is crossed.
+/// Whether the segment meets two faces at a point where it crosses one of them.
 fn passes_an_edge(faces: &[Along]) -> bool {
     faces.iter().any(|crossed| {
         let [p, q] = &crossed.values;

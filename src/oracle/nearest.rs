@@ -1,10 +1,10 @@
-//! Whether a frustum has a point at most so far from another point, exactly.
+//! Exact test of whether the distance of a frustum from a point is at most a radius.
 //!
 //! Distances are those of the world, whatever the frame's axes are. The point of a
-//! closed convex set that is nearest to `c` is `c` itself, or it is in the middle of a
-//! face, or in the middle of an edge, or it is a vertex; in the middle of a face or an
-//! edge it is the foot of the perpendicular from `c`. Every such foot that is in the
-//! frustum is one of its points, so the least of their distances is the distance:
+//! closed convex set nearest to `c` is `c` itself, or it is in the interior of a face or
+//! of an edge, or it is a vertex. In the interior of a face or an edge it is the foot of
+//! the perpendicular from `c`. Every such foot in the frustum is one of its points, so the
+//! distance is the least of theirs:
 //!
 //! ```text
 //! face i      foot = c - f_i(c) n_i / n_i.n_i     distance^2 = f_i(c)^2 / n_i.n_i
@@ -14,22 +14,23 @@
 //! vertex                                          distance^2 = w.w
 //! ```
 //!
-//! compared with the square of the radius, denominators multiplied out; and so is the
-//! determinant of the pose's axes, over which a frustum's corners are in the world.
+//! Each is compared with the square of the radius, with all denominators multiplied out:
+//! those above, and the determinant of the pose's axes, the denominator of a frustum's
+//! corners in the world.
 
 use super::dyadic::Dyadic;
 use super::frame::{Edge, Frame, Skeleton};
 use super::half_space::HalfSpace;
 use super::vector::{Vector, dot, minus, times};
 
-/// A ball, exactly.
+/// An exact sphere.
 #[derive(Debug)]
-pub(crate) struct ExactBall {
+pub(crate) struct ExactSphere {
     pub(crate) center: Vector,
     pub(crate) radius: Dyadic,
 }
 
-/// What is prepared for one frustum.
+/// The constants prepared for one frustum.
 #[derive(Debug)]
 pub(crate) struct Nearest {
     /// The inner products of the faces' normals.
@@ -49,12 +50,12 @@ impl Nearest {
         }
     }
 
-    /// Whether a ball whose centre is outside has a point of the frustum; `values` are
-    /// the boundary functions at its centre.
-    pub(crate) fn touches(&self, ball: &ExactBall, values: &[Dyadic]) -> bool {
-        let square = &ball.radius * &ball.radius;
+    /// Whether a sphere with its centre outside has a point in common with the frustum;
+    /// `values` are the boundary functions at its centre.
+    pub(crate) fn touches(&self, sphere: &ExactSphere, values: &[Dyadic]) -> bool {
+        let square = &sphere.radius * &sphere.radius;
         self.has_face_within(values, &square)
-            || self.has_edge_or_corner_within(&ball.center, &square)
+            || self.has_edge_or_corner_within(&sphere.center, &square)
     }
 
     fn has_face_within(&self, values: &[Dyadic], square: &Dyadic) -> bool {
@@ -76,7 +77,7 @@ impl Nearest {
     fn has_edge_or_corner_within(&self, center: &Vector, square: &Dyadic) -> bool {
         let skeleton = &self.skeleton;
         let determinant = &skeleton.determinant;
-        // Where everything is multiplied by the determinant.
+        // In coordinates multiplied by the determinant.
         let center = times(center, determinant);
         let square = square * &(determinant * determinant);
         let corner_is_close = |corner: &Vector| {
@@ -91,7 +92,7 @@ impl Nearest {
     }
 }
 
-/// Whether the middle of an edge is, its vertices apart.
+/// Whether the interior of an edge has a point within the radius.
 fn is_edge_within(edge: &Edge, center: &Vector, square: &Dyadic) -> bool {
     let w = minus(center, &edge.start);
     let t = dot(&w, &edge.along);

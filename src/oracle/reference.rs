@@ -1,8 +1,8 @@
-//! A clipper made of the truth: right, and slow.
+//! The reference clipper: right, and slow.
 //!
-//! It is what the fast clippers are compared with where a whole answer is
-//! wanted, and what shows that the checks accept a right one. `Fast` answers are
-//! correctly rounded too, which is more than was promised.
+//! Tests compare the fast clippers with it where they need a whole answer, and show with
+//! it that the checks accept a right one. Its `Fast` answers are correctly rounded too,
+//! which is more than the accuracy promises.
 
 use super::{Oracle, OracleEnd, round_nearest};
 use crate::clip::{Accuracy, Part, PartEnd, SegmentClip, SegmentClipper, StageCounts};
@@ -12,7 +12,7 @@ use crate::math::{NonFinite, Real, Segment, Vec3};
 /// Clips by rational arithmetic and rounds once.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct OracleClipper {
-    /// How the points are rounded.
+    /// The accuracy of the points.
     pub accuracy: Accuracy,
 }
 
@@ -32,7 +32,7 @@ impl<T: Real> SegmentClipper<T> for OracleClipper {
 }
 
 impl Oracle {
-    /// The right answer, rounded.
+    /// The exact answer, rounded.
     ///
     /// # Errors
     /// A coordinate of the segment is infinite or NaN.
@@ -66,8 +66,8 @@ impl Oracle {
         })
     }
 
-    /// A near or far hit in the identity pose keeps that end's `z` where an
-    /// inward point has it.
+    /// An inward point if there is one, or else the nearest one. At a near or far hit in
+    /// the identity pose, points with that end's `z` come first.
     fn inward_or_nearest<T: Real>(&self, exact: &OracleEnd) -> (Vec3<T>, bool) {
         let depth = self
             .end_depth(exact.faces)

@@ -1,8 +1,8 @@
-//! Correct rounding of rationals, and the floating-point numbers near one.
+//! Correct rounding of rationals, and the floating-point numbers near a rational.
 //!
 //! `x = n/d` lies in a binade `2^b <= |x| < 2^(b+1)`; its unit in the last place
 //! is `ulp(x) = 2^(b - digits + 1)`, never below the smallest subnormal. Rounding
-//! is one integer division by the ulp and a look at the remainder. A value
+//! is one integer division by the ulp and a comparison of the remainder. A value
 //! beyond the largest finite number by half an ulp or more becomes infinite; one
 //! at or below half the smallest subnormal becomes zero with its sign.
 
@@ -49,7 +49,7 @@ pub(crate) fn ulp_exponent_at<T: Real>(x: &BigRational) -> i64 {
     }
 }
 
-/// The same as a double.
+/// The unit in the last place of `T` at a rational.
 pub(crate) fn ulp_at<T: Real>(x: &BigRational) -> f64 {
     scale(1, ulp_exponent_at::<T>(x))
 }
@@ -154,7 +154,7 @@ mod tests {
 
     #[test]
     fn agrees_with_the_hardware() {
-        // Products and quotients of doubles are correctly rounded by IEEE 754.
+        // IEEE 754 rounds products and quotients correctly.
         let mut state = 1_u64;
         let mut next = || {
             state = state

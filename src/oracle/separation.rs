@@ -1,4 +1,4 @@
-//! Whether a box and a frustum have a point in common, by separating axes.
+//! The exact separating axis test of a box and a frustum.
 //!
 //! A box here is any `B = { c + s u + t v + w n : s, t, w in -1..=1 }`: half axes may
 //! be zero, of any length and angle, or dependent.
@@ -6,28 +6,28 @@
 //! # Why a finite number of axes is enough
 //! The frustum F is a polyhedron with vertices and with points inside, B a polytope.
 //! They have no point in common exactly if 0 is not in `D = F - B`, which is a closed
-//! polyhedron, and full-dimensional since F is, however flat B may be. So D is the
+//! polyhedron, and full-dimensional because F is, however flat B may be. So D is the
 //! intersection of the half-spaces of its own facets, and 0 is outside of one of these.
-//! Where a normal is greatest on D is where it is greatest on F plus where it is
-//! greatest on -B; a facet therefore is the sum of a face of F and a face of -B, and
+//! The points of D at which a normal is greatest are the sums of those of F and of -B at
+//! which it is greatest. A facet is therefore the sum of a face of F and a face of -B, and
 //! for the two to span a plane
 //!
 //! - the face of F spans it: the normal is that of a face of F; or
 //! - the face of -B spans it. The faces of a box in a direction are spanned by the half
 //!   axes across it, so the normal is the cross product of two half axes; or
-//! - each has a direction that the other does not have: an edge's of F and a half
-//!   axis'. (A face that spans the plane is one of the cases above.)
+//! - each has a direction that the other does not have: that of an edge of F, and a half
+//!   axis. (A face that spans the plane is one of the cases above.)
 //!
-//! Dependent half axes need nothing special: the argument never says how many of the
-//! half axes a face has, and a flat box is a face of itself. An axis too many does no
-//! harm: whatever the normal, intervals that are apart prove that the sets are.
+//! Dependent half axes are no special case: the argument does not depend on the number of
+//! half axes of a face, and a flat box is a face of itself. Additional axes do no harm:
+//! for any normal, disjoint intervals prove disjoint sets.
 //!
 //! An infinite frustum's interval has no end where the normal rises along one of its
 //! rays. Its edges are then rays, with directions like any other.
 //!
 //! # Where it is computed
-//! Separation is a matter of linear algebra alone, so the frame is as good as the
-//! world, and there a frustum's corners are short. The axes of an axis-aligned box are
+//! Separation is invariant under linear maps, so it can be tested in the frame, where a
+//! frustum's corners are short numbers. The axes of an axis-aligned box are
 //! the same for all boxes: they and the frustum's intervals are prepared once, over
 //! world coordinates.
 
@@ -36,7 +36,7 @@ use super::frame::Frame;
 use super::vector::{Vector, align, cross, dot, is_zero};
 use std::slice;
 
-/// A box, exactly.
+/// An exact box.
 #[derive(Clone, Debug)]
 pub(crate) struct ExactBox {
     pub(crate) center: Vector,
@@ -50,7 +50,7 @@ impl ExactBox {
         Self { center, half_axes }
     }
 
-    /// How far from the middle a linear function goes.
+    /// The largest difference of a linear function on the box from its value at the centre.
     pub(crate) fn reach(&self, normal: &Vector) -> Dyadic {
         let [a, b, c] = self.half_axes.each_ref().map(|h| dot(normal, h).abs());
         a + b + c
@@ -62,8 +62,7 @@ impl ExactBox {
     }
 }
 
-/// Between which values a linear function is on a frustum; `None` where it has no
-/// bound.
+/// The range of a linear function on a frustum; an end is `None` if it is infinite.
 #[derive(Debug)]
 struct Slab {
     normal: Vector,
@@ -92,7 +91,7 @@ impl Slab {
         })
     }
 
-    /// The same over world coordinates.
+    /// The same slab over world coordinates.
     fn in_world(self, frame: &Frame) -> Self {
         let normal = frame.normal_in_world(&self.normal);
         let shift = frame.at_origin(&normal);
@@ -125,7 +124,7 @@ fn axes(frame: &Frame, half_axes: &[Vector; 3]) -> impl Iterator<Item = Vector> 
     faces.into_iter().chain(edges)
 }
 
-/// What is prepared for one frustum.
+/// The constants prepared for one frustum.
 #[derive(Debug)]
 pub(crate) struct Separation {
     frame: Frame,

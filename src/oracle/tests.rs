@@ -1,5 +1,5 @@
-//! The oracle on answers known by hand and on a second definition, and its
-//! checks on answers known to be wrong.
+//! The oracle compared with answers known by hand and with a second definition, and its
+//! checks of answers that are known to be wrong.
 
 use super::*;
 use crate::clip::{Accuracy, Part, SegmentClip};
@@ -96,7 +96,7 @@ fn an_infinite_frustum_has_no_far_face() {
 }
 
 #[test]
-fn the_whole_range_of_doubles_at_once() {
+fn the_whole_range_of_f64_at_once() {
     let near = EndRect::new(5e-324, -1e300, 1e300, -5e-324, 5e-324);
     let far = EndRect::new(1e300, -1e300, 1e300, -1e300, 1e-300);
     let frustum = Frustum::new(Pose::IDENTITY, Shape::Finite { near, far }).unwrap();
@@ -107,7 +107,7 @@ fn the_whole_range_of_doubles_at_once() {
     assert!(!part.exit.clipped && part.exit.faces == Face::Far.into());
 }
 
-/// Membership from the definition once more, in plain fractions.
+/// Membership by the definition, in plain fractions.
 fn is_in_hull(shape: &Shape, q: &[BigRational; 3]) -> bool {
     let exact = |v: f64| BigRational::from_float(v).unwrap();
     let Shape::Finite { near, far } = shape else {
@@ -197,7 +197,7 @@ fn its_own_answers_pass_its_checks() {
     }
 }
 
-/// What the checks find after one thing of a right answer was spoilt.
+/// The violations found after a change to a right answer.
 fn kinds_after(
     accuracy: Accuracy,
     spoil: impl Fn(&mut SegmentClip<f64>, &mut Part<f64>),
@@ -214,7 +214,7 @@ fn kinds_after(
 }
 
 #[test]
-fn each_spoilt_answer_is_named() {
+fn each_wrong_answer_is_found() {
     use Accuracy::{Fast, Inward, Nearest};
     use ViolationKind as K;
     type Spoil = fn(&mut SegmentClip<f64>, &mut Part<f64>);
@@ -269,9 +269,8 @@ fn a_near_hit_keeps_its_depth() {
 }
 
 #[test]
-fn no_inward_point_where_the_frustum_holds_none() {
-    // One ulp wide and slanted: between two neighbouring doubles for every z
-    // strictly inside.
+fn no_inward_point_if_the_frustum_has_none() {
+    // One ulp wide and slanted: between two adjacent values for every z strictly inside.
     let ulp = f64::EPSILON;
     let near = EndRect::new(0.0, 1.0, 1.0, -1.0, 1.0);
     let far = EndRect::new(1.0, 1.0 + ulp, 1.0 + 2.0 * ulp, -1.0, 1.0);
@@ -286,7 +285,7 @@ fn no_inward_point_where_the_frustum_holds_none() {
 }
 
 #[test]
-fn input_that_is_not_finite_is_refused() {
+fn input_that_is_not_finite_is_an_error() {
     let segment = Segment::new([0.0, f64::NAN, 0.0], [0.0, 0.0, 1.0]);
     assert!(clip(&symmetric(), &segment).is_err());
     assert!(!contains(&symmetric(), Vec3::new(f64::INFINITY, 0.0, 2.0)));

@@ -5,7 +5,7 @@ use crate::math::Vec3;
 
 pub(crate) type Vector = [Dyadic; 3];
 
-/// A vector of doubles; a number that is not finite counts as zero.
+/// The exact coordinates of a vector; a number that is not finite counts as zero.
 pub(crate) fn exact_point(p: Vec3<f64>) -> Vector {
     p.to_array().map(exact)
 }
@@ -14,8 +14,8 @@ pub(crate) fn exact(value: f64) -> Dyadic {
     Dyadic::from_f64(value).unwrap_or_else(Dyadic::zero)
 }
 
-/// Brings all coordinates over one power of two: sums of them, and of their products,
-/// then need no shifts, which is most of the time that they take.
+/// Brings all coordinates over one power of two. Sums of them, and of their products, then
+/// need no shifts, which would take most of the time.
 pub(crate) fn align(vectors: &mut [Vector]) {
     let exponents = vectors.iter().flatten().filter_map(Dyadic::exponent);
     if let Some(least) = exponents.min() {
@@ -25,7 +25,7 @@ pub(crate) fn align(vectors: &mut [Vector]) {
     }
 }
 
-/// The inner product. Zeros are left out: many vectors here are along an axis.
+/// The inner product. It skips zeros, because many vectors here are along an axis.
 pub(crate) fn dot(a: &Vector, b: &Vector) -> Dyadic {
     let factors = a.iter().zip(b);
     factors

@@ -1,32 +1,33 @@
-//! What a clipper's answer can have wrong, and how to say it.
+//! Violations of the guarantees by a clipper's answer.
 
 use crate::math::End;
 use std::fmt;
 
-/// Which promise an answer breaks. G1 to G6 are the guarantees of the exact
-/// clippers, as the crate's documentation numbers them.
+/// The kind of a violation. G1 to G6 are the guarantees of the exact clippers, as in
+/// the crate's documentation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[non_exhaustive]
 pub enum ViolationKind {
-    /// G1: the class, or whether there is a part at all.
+    /// G1: the class is wrong, or whether there is a part.
     Class,
-    /// G1: the entry, exit or coplanar set, or whether an end was clipped.
+    /// G1: the entry, exit or coplanar set is wrong, or a flag `clipped`.
     Set,
-    /// G2: an end that was not clipped did not come back bit for bit, or its
-    /// parameter is not 0 or 1, or it is not called inward.
+    /// G2: an end that was not clipped differs from the input's in a bit, or its
+    /// parameter is not 0 or 1, or its flag `inward` is false.
     UnclippedEnd,
-    /// G2: a near or far hit in the identity pose has another `z`.
+    /// G2: a near or far hit in the identity pose has another `z` than that face.
     EndDepth,
-    /// G3: a point further from the exact one than the accuracy allows, or not
+    /// G3: a point is farther from the exact one than the accuracy allows, or not
     /// finite.
     Point,
-    /// G3: a parameter further from the exact one than the accuracy allows.
+    /// G3: a parameter is farther from the exact one than the accuracy allows.
     Parameter,
-    /// G4: a point said to be inward lies outside the frustum.
+    /// G4: a point with the flag `inward` is outside the frustum.
     NotInward,
-    /// G3: a point said not to be inward although another could have been.
+    /// G3: a point is without the flag `inward` although a representable point near it is
+    /// inside.
     InwardMissed,
-    /// A clipped end called inward by an accuracy that does not promise it.
+    /// A clipped end has the flag `inward`, with an accuracy that does not promise it.
     InwardFlag,
     /// The entry's parameter is greater than the exit's, or one is not in 0..=1.
     Order,
@@ -34,7 +35,7 @@ pub enum ViolationKind {
     Swapped,
     /// G6: an inward result does not clip to itself.
     Idempotence,
-    /// A valid input was refused.
+    /// A valid input gave an error.
     Refused,
 }
 
@@ -82,16 +83,16 @@ impl fmt::Display for ViolationKind {
     }
 }
 
-/// One thing that is wrong with a clipper's answer.
+/// One violation of a guarantee by a clipper's answer.
 ///
-/// Displays with hexadecimal floats, so that nothing of a witness is lost.
+/// Its text has hexadecimal numbers, so that no bit of a witness is lost.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Violation {
-    /// Which promise is broken.
+    /// The kind of the violation.
     pub kind: ViolationKind,
-    /// At which end of the part (`Start` is the entry), if at one.
+    /// The end of the part (`Start` is the entry), if it concerns one end.
     pub end: Option<End>,
-    /// What was found and what would have been right.
+    /// The value found and the right one.
     pub detail: String,
 }
 

@@ -1,32 +1,32 @@
-//! How bounding volumes lie to a frustum, exactly.
+//! The exact position of bounding volumes relative to a frustum.
 //!
 //! Plane by plane: a boundary function is linear, so on a box with middle `c` and half
 //! axes `h_k` it takes the values from `f(c) - r` to `f(c) + r` with
-//! `r = |n . h_0| + |n . h_1| + |n . h_2|`, and on a ball those with `r = radius |n|`,
+//! `r = |n . h_0| + |n . h_1| + |n . h_2|`, and on a sphere those with `r = radius |n|`,
 //! where squares are compared. All of the volume is strictly outside of a plane if
 //! `f(c) + r < 0`, some of it if `f(c) - r < 0`.
 //!
-//! That settles *outside* and *inside* as [`Containment`] means them, and most volumes
-//! that have no point of the frustum. The others pass a plane's test for each face and
-//! still miss the frustum, by an edge: see [`separation`](super::separation) for boxes
-//! and [`nearest`](super::nearest) for balls.
+//! That decides *outside* and *inside* as [`Containment`] defines them, and most volumes
+//! that have no point in common with the frustum. The others pass the test of each plane
+//! and still miss the frustum, beside an edge: see [`separation`](super::separation) for
+//! boxes and [`nearest`](super::nearest) for spheres.
 
 use super::Oracle;
 use super::dyadic::Dyadic;
 use super::frame::Frame;
 use super::half_space::HalfSpace;
-use super::nearest::{ExactBall, Nearest};
+use super::nearest::{ExactSphere, Nearest};
 use super::separation::{ExactBox, Separation};
 use super::vector::{Vector, dot, exact, exact_point, minus, plus, times};
 use crate::cull::{Aabb, Containment, Volume};
 use crate::frustum::FaceSet;
 use std::cmp::Ordering;
 
-/// A volume's numbers, exactly.
+/// An exact volume.
 enum Exact {
     Aligned(ExactBox),
     Oriented(ExactBox),
-    Ball(ExactBall),
+    Sphere(ExactSphere),
 }
 
 impl Exact {
@@ -40,7 +40,7 @@ impl Exact {
                 let half_axes = v.half_axes.map(exact_point);
                 Self::Oriented(ExactBox::new(exact_point(v.center), half_axes))
             }
-            Volume::Sphere(v) => Self::Ball(ExactBall {
+            Volume::Sphere(v) => Self::Sphere(ExactSphere {
                 center: exact_point(v.center),
                 radius: exact(v.radius),
             }),
@@ -50,7 +50,7 @@ impl Exact {
     fn center(&self) -> &Vector {
         match self {
             Self::Aligned(v) | Self::Oriented(v) => &v.center,
-            Self::Ball(v) => &v.center,
+            Self::Sphere(v) => &v.center,
         }
     }
 }
@@ -68,7 +68,7 @@ fn aligned(v: &Aabb<f64>) -> ExactBox {
     ExactBox::new(times(&plus(&min, &max), &half), half_axes)
 }
 
-/// How much of a volume is strictly outside of a face's plane.
+/// The part of a volume that is strictly outside of a face's plane.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Beyond {
     Nothing,
@@ -76,12 +76,12 @@ enum Beyond {
     All,
 }
 
-/// `value` is the boundary function at the volume's middle.
+/// The part beyond a plane; `value` is the boundary function at the volume's centre.
 fn beyond(plane: &HalfSpace, value: &Dyadic, volume: &Exact) -> Beyond {
-    // How far the plane is, against how far the volume reaches.
+    // The distance of the plane compared with the extent of the volume.
     let distance = match volume {
         Exact::Aligned(v) | Exact::Oriented(v) => value.abs().cmp(&v.reach(&plane.normal)),
-        Exact::Ball(v) => {
+        Exact::Sphere(v) => {
             let reach = times(&plane.normal, &v.radius);
             (value * value).cmp(&dot(&reach, &reach))
         }
@@ -93,21 +93,21 @@ fn beyond(plane: &HalfSpace, value: &Dyadic, volume: &Exact) -> Beyond {
     }
 }
 
-/// What is beyond the faces of a frustum.
+/// The faces of a frustum beyond which a volume is, wholly or partly.
 struct Faces {
-    /// The boundary functions at the volume's middle.
+    /// The boundary functions at the volume's centre.
     values: Vec<Dyadic>,
     outside: FaceSet,
     crossing: FaceSet,
 }
 
 impl Oracle {
-    /// How a volume lies to the frustum, plane by plane: `Outside` if all of it is
-    /// strictly outside of the plane of one of the faces, `Inside` if the frustum
+    /// The position of a volume relative to the frustum, plane by plane: `Outside` if all
+    /// of it is strictly outside of the plane of one of the faces, `Inside` if the frustum
     /// contains it, `Crossing` otherwise.
     ///
-    /// A volume that is `Crossing` need not have a point of the frustum: that is what
-    /// [`Oracle::intersects`] says. Takes 5 to 10 us.
+    /// A `Crossing` volume need not have a point in common with the frustum:
+    /// [`Oracle::intersects`] decides that. Takes 5 to 10 us.
     ///
     /// ```
     /// use frusta::oracle::Oracle;
@@ -124,7 +124,7 @@ impl Oracle {
     /// assert_eq!(crossing, [Face::Near, Face::Right, Face::Top].into_iter().collect());
     /// assert!(oracle.intersects(&touching));
     ///
-    /// // Outside of no face's plane, beyond the edge between right and near.
+    /// // Outside of no plane of a face, but beyond the edge between right and near.
     /// let beyond = Sphere::new([1.375, 0.0, 0.125], 0.90625).into();
     /// assert_eq!(oracle.classify(&beyond), Containment::Crossing);
     /// assert!(!oracle.intersects(&beyond));
@@ -132,7 +132,7 @@ impl Oracle {
     /// ```
     ///
     /// # Panics
-    /// [`Volume::check`] says that it is no volume.
+    /// If the volume fails [`Volume::check`].
     pub fn classify(&self, volume: &Volume) -> Containment {
         let (outside, crossing) = self.volume_faces(volume);
         match (outside.is_empty(), crossing.is_empty()) {
@@ -142,12 +142,12 @@ impl Oracle {
         }
     }
 
-    /// The faces whose planes have all of a volume strictly outside of them, and those
-    /// whose planes have some of it there, but not all. Costs what
-    /// [`Oracle::classify`] does, and has an example there.
+    /// The faces for which all of a volume is strictly outside of the plane, and those for
+    /// which only a part of it is. It costs the same as [`Oracle::classify`], which has
+    /// an example.
     ///
     /// # Panics
-    /// [`Volume::check`] says that it is no volume.
+    /// If the volume fails [`Volume::check`].
     pub fn volume_faces(&self, volume: &Volume) -> (FaceSet, FaceSet) {
         let faces = self.faces_beyond(&Exact::new(volume));
         (faces.outside, faces.crossing)
@@ -155,9 +155,9 @@ impl Oracle {
 
     /// Whether a volume and the frustum have a point in common; touching counts.
     ///
-    /// On hard volumes it takes 15 us for a box along the axes or a ball and 80 us for an
-    /// oriented box, on the average. What all volumes need of a frustum is prepared with
-    /// the first of them.
+    /// On hard volumes it takes 15 us for an axis-aligned box or a sphere and 80 us for an
+    /// oriented box, on average. The first volume prepares the constants of the frustum
+    /// for all.
     ///
     /// ```
     /// use frusta::oracle::Oracle;
@@ -172,7 +172,7 @@ impl Oracle {
     ///     },
     /// )?;
     /// let oracle = Oracle::new(&frustum);
-    /// // A needle across the edge where x = y = 0, which it touches or passes by.
+    /// // A needle across the edge where x = y = 0, which it touches or misses.
     /// let needle = |x: f64| {
     ///     let zero = [0.0; 3];
     ///     Obb::new([x, 0.0, -1e6], [[3.0, -3.0, 1.0], zero, zero]).into()
@@ -183,21 +183,21 @@ impl Oracle {
     /// ```
     ///
     /// # Panics
-    /// [`Volume::check`] says that it is no volume.
+    /// If the volume fails [`Volume::check`].
     pub fn intersects(&self, volume: &Volume) -> bool {
         let exact = Exact::new(volume);
         let faces = self.faces_beyond(&exact);
         if !faces.outside.is_empty() {
             return false;
         }
-        // The middle is in the frustum.
+        // The centre is in the frustum.
         if faces.values.iter().all(|v| !v.is_negative()) {
             return true;
         }
         match &exact {
             Exact::Aligned(v) => !self.separation().separates_aligned(v),
             Exact::Oriented(v) => !self.separation().separates(v),
-            Exact::Ball(v) => self.nearest().touches(v, &faces.values),
+            Exact::Sphere(v) => self.nearest().touches(v, &faces.values),
         }
     }
 

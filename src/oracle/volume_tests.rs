@@ -1,5 +1,4 @@
-//! Volumes whose answers are known by hand, and each question answered once more by
-//! another method.
+//! Volumes whose answers are known by hand, and each query answered by another method, too.
 
 use super::dyadic::Dyadic;
 use super::frame::{Frame, Skeleton};
@@ -18,8 +17,8 @@ fn symmetric() -> Oracle {
     in_world(Shape::Finite { near, far })
 }
 
-/// Along -z without an end: x from 0 to 1 - z, y from 0 to 1.
-fn endless() -> Oracle {
+/// Infinite along -z: x from 0 to 1 - z, y from 0 to 1.
+fn infinite() -> Oracle {
     in_world(Shape::Infinite {
         near: EndRect::new(0.0, 0.0, 1.0, 0.0, 1.0),
         slopes: Rect::new(0.0, 1.0, 0.0, 0.0),
@@ -51,12 +50,12 @@ fn boxes_that_touch() {
     check([-4.0, -4.0, 3.0], [4.0, 4.0, 4.0], Crossing, true);
     check([3.0, 3.0, 3.0], [4.0, 4.0, 4.0], Crossing, true);
     check([3.0, -0.5, 2.5], [4.0, 0.5, 4.0], Crossing, true);
-    // The same, apart by the least that there is.
+    // The same, separated by the least possible distance.
     let after = 3.0_f64.next_up();
     check([-4.0, -4.0, after], [4.0, 4.0, 4.0], Outside, false);
     check([after, 3.0, 3.0], [4.0, 4.0, 4.0], Crossing, false);
     check([after, -0.5, 2.5], [4.0, 0.5, 4.0], Crossing, false);
-    // From inside, and no more.
+    // Touching from inside, and just crossing.
     check([-1.0, -1.0, 1.0], [1.0, 1.0, 3.0], Inside, true);
     check(
         [-1.0, -1.0, 1.0],
@@ -64,7 +63,7 @@ fn boxes_that_touch() {
         Crossing,
         true,
     );
-    // All of it, a point of it, nothing.
+    // The whole frustum, a point of it, none.
     check([-9.0; 3], [9.0; 3], Crossing, true);
     check([2.0; 3], [2.0; 3], Inside, true);
     check(
@@ -86,16 +85,16 @@ fn faces_are_named() {
     let (outside, crossing) = found([4.0, -4.0, 2.0], [5.0, 0.0, 3.5]);
     assert_eq!(outside, faces(&[Face::Right]));
     assert_eq!(crossing, faces(&[Face::Far, Face::Bottom]));
-    let ball =
+    let sphere =
         |center: [f64; 3], radius: f64| oracle.volume_faces(&Sphere::new(center, radius).into());
-    assert_eq!(ball([0.0, 0.0, 2.0], 1.0), (empty, empty));
+    assert_eq!(sphere([0.0, 0.0, 2.0], 1.0), (empty, empty));
     assert_eq!(
-        ball([0.0, 0.0, 2.0], 1.0_f64.next_up()).1,
+        sphere([0.0, 0.0, 2.0], 1.0_f64.next_up()).1,
         faces(&[Face::Near, Face::Far])
     );
-    assert_eq!(ball([0.0, 0.0, 4.0], 1.0), (empty, faces(&[Face::Far])));
+    assert_eq!(sphere([0.0, 0.0, 4.0], 1.0), (empty, faces(&[Face::Far])));
     assert_eq!(
-        ball([0.0, 0.0, 4.0], 1.0_f64.next_down()),
+        sphere([0.0, 0.0, 4.0], 1.0_f64.next_down()),
         (faces(&[Face::Far]), empty)
     );
 }
@@ -135,7 +134,7 @@ fn flat_and_dependent_boxes() {
 }
 
 #[test]
-fn balls_at_faces_edges_and_vertices() {
+fn spheres_at_faces_edges_and_vertices() {
     let oracle = symmetric();
     let check = |oracle: &Oracle, center: [f64; 3], radius: f64| {
         let meets = |r: f64| oracle.intersects(&Sphere::new(center, r).into());
@@ -146,8 +145,8 @@ fn balls_at_faces_edges_and_vertices() {
     // Beyond the far end's edge at x = 3 and its vertex at (3, 3, 3).
     check(&oracle, [6.0, 1.0, 7.0], 5.0);
     check(&oracle, [5.0, 6.0, 9.0], 7.0);
-    // The edge of an endless one at x = y = 0, and of its near end.
-    let oracle = endless();
+    // The edge of an infinite frustum at x = y = 0, and of its near end.
+    let oracle = infinite();
     check(&oracle, [-3.0, -4.0, -1e9], 5.0);
     check(&oracle, [-3.0, 0.5, 4.0], 5.0);
     check(&oracle, [-1.0, -2.0, 2.0], 3.0);
@@ -175,20 +174,20 @@ fn a_pyramid_ends_at_its_apex() {
     assert!(oracle.intersects(&tip(0.0)));
     assert_eq!(oracle.classify(&tip(0.0)), Containment::Crossing);
     assert!(!oracle.intersects(&tip(-5e-324)));
-    let ball = |r: f64| oracle.intersects(&Sphere::new([2.0, -3.0, -6.0], r).into());
-    assert!(ball(7.0) && !ball(7.0_f64.next_down()));
+    let sphere = |r: f64| oracle.intersects(&Sphere::new([2.0, -3.0, -6.0], r).into());
+    assert!(sphere(7.0) && !sphere(7.0_f64.next_down()));
 }
 
 #[test]
 #[should_panic(expected = "min.y = 1 is greater than max.y = 0; the box is empty")]
-fn what_is_no_volume_is_refused() {
+fn an_invalid_volume_panics() {
     symmetric().intersects(&Aabb::new([0.0, 1.0, 0.0], [1.0, 0.0, 1.0]).into());
 }
 
-// The same questions answered otherwise.
+// The same queries by other methods.
 
-/// The solution of three linear equations times their determinant, and that; `None`
-/// where it is zero.
+/// The solution of three linear equations times their determinant, and the determinant; `None`
+/// if it is zero.
 fn solve(rows: &[Vector; 3], right: &Vector) -> Option<(Vector, Dyadic)> {
     let [a, b, c] = rows;
     let columns = [cross(b, c), cross(c, a), cross(a, b)];
@@ -203,10 +202,10 @@ fn triples(n: usize) -> impl Iterator<Item = [usize; 3]> {
     (0..n).flat_map(move |i| (0..i).flat_map(move |j| (0..j).map(move |k| [i, j, k])))
 }
 
-/// Whether a box has a point of the frustum, by linear programming in the box's own
-/// coordinates `s, t, w`: each face is a half-space there too, the box itself is a
-/// cube whatever its half axes are, and what they have in common has a vertex, where
-/// three of the planes meet, if it is not empty.
+/// Whether a box and the frustum have a point in common, by linear programming in the box's own
+/// coordinates `s, t, w`: each face is a half-space there too, the box itself is a cube
+/// whatever its half axes are, and their intersection has a vertex, at which three of the
+/// planes meet, if it is not empty.
 fn has_common_vertex(oracle: &Oracle, shape: &ExactBox) -> bool {
     let faces = oracle.half_spaces.iter().map(|plane| {
         let gradient = shape.half_axes.each_ref().map(|h| dot(&plane.normal, h));
@@ -236,15 +235,15 @@ fn has_common_vertex(oracle: &Oracle, shape: &ExactBox) -> bool {
     })
 }
 
-/// Whether a ball has a point of the frustum, by the conditions of optimality: the
-/// point of the frustum nearest to `c` is the foot of the perpendicular from `c` on
-/// what some of the planes have in common, at most three of them independent. With
+/// Whether a sphere and the frustum have a point in common, by the conditions of optimality:
+/// the point of the frustum nearest to `c` is the foot of the perpendicular from `c` to the
+/// intersection of some of the planes, at most three of them independent. With
 /// the matrix G of their normals' inner products it is `c + sum l_i n_i`, `G l = -f(c)`.
 fn has_foot_within(oracle: &Oracle, center: &Vector, square: &Dyadic) -> bool {
     let planes = &oracle.half_spaces;
     let values: Vec<Dyadic> = planes.iter().map(|h| h.value_at(center)).collect();
     let product = |i: usize, j: usize| dot(&planes[i].normal, &planes[j].normal);
-    // Numbers beyond the planes stand for none.
+    // Indices beyond the planes mean no plane.
     let n = planes.len();
     triples(n + 3).any(|set| {
         let entry = |i: usize, j: usize| match (i < n && j < n, i == j) {
@@ -265,7 +264,7 @@ fn has_foot_within(oracle: &Oracle, center: &Vector, square: &Dyadic) -> bool {
     })
 }
 
-/// What the planes say about a box, by its corners.
+/// The faces of a box's answer, by its corners.
 fn faces_by_corners(oracle: &Oracle, shape: &ExactBox) -> (FaceSet, FaceSet) {
     let corners = (0..8).map(|i| {
         let half_axes = shape.half_axes.iter().enumerate();
@@ -313,7 +312,8 @@ fn exact_aabb(v: &Aabb<f64>) -> ExactBox {
     }
 }
 
-/// How many volumes met the frustum, missed it, and missed it by no face's plane.
+/// Numbers of volumes that met the frustum, missed it, and missed it though no face's plane
+/// separates them.
 #[derive(Debug, Default)]
 struct Seen {
     met: u32,
@@ -332,7 +332,7 @@ impl Seen {
         self.check(oracle, volume, has_common_vertex(oracle, shape));
     }
 
-    fn check_ball(&mut self, oracle: &Oracle, v: Sphere<f64>) {
+    fn check_sphere(&mut self, oracle: &Oracle, v: Sphere<f64>) {
         let radius = exact(v.radius);
         let meets = has_foot_within(oracle, &exact_point(v.center), &(&radius * &radius));
         self.check(oracle, v.into(), meets);
@@ -353,7 +353,7 @@ impl Seen {
     }
 }
 
-/// Whether a segment between two corners of a box has a point of the frustum.
+/// Whether a segment between two corners of a box and the frustum have a point in common.
 fn meets_an_edge(oracle: &Oracle, v: &Aabb<f64>) -> bool {
     let corner = |i: usize| Vec3::from([0, 1, 2].map(|k| [v.min, v.max][i >> k & 1][k]));
     let mut pairs = (0..8).flat_map(|i| (0..i).map(move |j| (i, j)));
@@ -365,7 +365,7 @@ fn meets_an_edge(oracle: &Oracle, v: &Aabb<f64>) -> bool {
 
 #[test]
 fn agrees_with_other_methods_on_hard_volumes() {
-    let [mut boxes, mut oriented, mut balls] = [(); 3].map(|()| Seen::default());
+    let [mut boxes, mut oriented, mut spheres] = [(); 3].map(|()| Seen::default());
     for &family in Family::ALL {
         for block in 0..6 {
             let scene = family.scene(3, block);
@@ -376,13 +376,13 @@ fn agrees_with_other_methods_on_hard_volumes() {
                 assert!(oracle.intersects(&v.into()) || !meets_an_edge(&oracle, &v));
                 let v = hard_obb(&scene, 3, number);
                 oriented.check_box(&oracle, v.into(), &exact_box(&v));
-                balls.check_ball(&oracle, hard_sphere(&scene, 3, number));
+                spheres.check_sphere(&oracle, hard_sphere(&scene, 3, number));
             }
         }
     }
     boxes.assert_each(200);
     oriented.assert_each(150);
-    balls.assert_each(150);
+    spheres.assert_each(150);
 }
 
 #[test]

@@ -1,14 +1,14 @@
 //! Named, seeded families of cases.
 //!
-//! A case is known by its family, a seed and an index, and can be made alone, on
-//! any machine, with the same bits. [`BLOCK`] cases in a row share a frustum,
-//! because making one costs more than clipping by it. In every family at least
-//! half of the cases are within 4 ulp of a singular one, where wrong answers live:
-//! an end within 4 ulp a coordinate of a vertex, an edge or a face, or a line that
-//! passes as close by a vertex or an edge (`oracle::Oracle::is_near` says it
-//! exactly; a line through the middle of a face does not count). A case is one shape of segment (ending near a
-//! feature, passing through one, joining two, along a face, ...) on one kind of
-//! frustum; what a family changes is said by [`Family::describe`].
+//! A family, a seed and an index determine a case, with the same bits on any machine,
+//! independently of all other cases. [`BLOCK`] consecutive cases share a frustum, because
+//! preparing one costs more than clipping by it. In every family at least half of the cases
+//! are within 4 ulp of a singular one, where wrong answers are most likely: an end is within
+//! 4 ulp per coordinate of a vertex, an edge or a face, or the line passes a vertex or an
+//! edge as closely (`oracle::Oracle::is_near` is the exact definition; a line through the
+//! middle of a face does not count). A case is one kind of segment (ending near a feature,
+//! passing through one, joining two, along a face, ...) with one kind of frustum;
+//! [`Family::describe`] gives the property of each family.
 
 use super::scene::Scene;
 use super::segments;
@@ -17,7 +17,7 @@ use crate::math::{Real, Segment};
 use std::fmt;
 use std::str::FromStr;
 
-/// How many cases in a row share a frustum.
+/// Number of consecutive cases that share a frustum.
 pub const BLOCK: u64 = 64;
 
 macro_rules! families {
@@ -38,7 +38,7 @@ macro_rules! families {
                 match self { $(Family::$variant => $name,)* }
             }
 
-            /// What is special about it, in one sentence.
+            /// The special property of the family, in one sentence.
             pub const fn describe(self) -> &'static str {
                 match self { $(Family::$variant => $describe,)* }
             }
@@ -62,12 +62,12 @@ families! {
     HalfLattice "half-lattice" "Small integer frusta, ends on half-integer points: most cases are singular.";
     Points "points" "Segments of zero length.";
     NearFarRatio "near-far-ratio" "Near over far from 1e-3 to 1e-30.";
-    FlatDepth "flat-depth" "Far is the next double after near.";
+    FlatDepth "flat-depth" "Near and far are adjacent f64 values.";
     NarrowView "narrow-view" "Full fields of view of 1e-3 degrees and 1e-8 radians.";
     WideView "wide-view" "A full field of view of 179.999999 degrees.";
     Aspect "aspect" "Width over height 1e6 and 1e-6.";
     FarFromOrigin "far-from-origin" "Coordinates of 1e15: features of 1e-3, which are not representable there, and of a few ulp (0.125 each).";
-    Subnormal "subnormal" "All numbers are small multiples of the least positive double.";
+    Subnormal "subnormal" "All numbers are small multiples of the least positive f64.";
     ProductsUnderflow "products-underflow" "Coordinates of 1e-160: products underflow.";
     ProductsOverflow "products-overflow" "Coordinates of 1e155: products overflow.";
     Huge "huge" "Coordinates of 1e300: differences may overflow.";
@@ -85,12 +85,12 @@ families! {
     UlpLong "ulp-long" "Segments one ulp long in one or more coordinates.";
     Diagonals "diagonals" "Between opposite vertices, and beyond them.";
     BehindApex "behind-apex" "Passing behind the apex, where the sides' planes open again.";
-    MixedScale "mixed-scale" "Exponents from all over the range of doubles in one case.";
+    MixedScale "mixed-scale" "Exponents from the whole range of f64 in one case.";
     Thin "thin" "Frusta so thin that few or no representable points lie in them.";
 }
 
 impl Family {
-    /// The frustum of a block of cases, with what is needed to aim at it.
+    /// The scene of a block of cases: its frustum, and its features for aiming.
     pub fn scene(self, seed: u64, block: u64) -> Scene {
         Scene::new(self, seed, block)
     }
@@ -100,15 +100,15 @@ impl Family {
         segments::segment(self, scene, seed, index)
     }
 
-    /// A case alone.
+    /// The frustum and the segment of a case.
     pub fn case(self, seed: u64, index: u64) -> (Frustum, Segment<f64>) {
         let scene = self.scene(seed, index / BLOCK);
         let segment = self.segment(&scene, seed, index);
         (scene.frustum().clone(), segment)
     }
 
-    /// A case alone, its segment in `f32`; `None` if the family makes sense in
-    /// `f64` only.
+    /// The frustum and the segment of a case, the segment in `f32`; `None` if the family
+    /// has no cases in `f32`.
     pub fn case_f32(self, seed: u64, index: u64) -> Option<(Frustum, Segment<f32>)> {
         self.has_f32().then(|| {
             let scene = self.scene(seed, index / BLOCK);
@@ -117,8 +117,8 @@ impl Family {
         })
     }
 
-    /// Whether its cases make sense in `f32`: their numbers are in its range and
-    /// the singular ones among them survive the rounding.
+    /// Whether the family has cases in `f32`: their coordinates are in its range, and
+    /// singular cases stay singular after rounding.
     pub const fn has_f32(self) -> bool {
         !matches!(
             self,
@@ -140,14 +140,19 @@ impl fmt::Display for Family {
     }
 }
 
-/// A text that names no family.
+/// The error for a text that is not the name of a family.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct UnknownFamily(String);
 
 impl fmt::Display for UnknownFamily {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let names: Vec<_> = Family::ALL.iter().map(|f| f.name()).collect();
-        write!(f, "no family {:?}; there are {}", self.0, names.join(", "))
+        write!(
+            f,
+            "there is no family {:?}; the families are {}",
+            self.0,
+            names.join(", ")
+        )
     }
 }
 

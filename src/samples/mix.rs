@@ -1,9 +1,9 @@
-//! Everyday segments, in seeded mixes: what programs clip that draw or look up what
-//! is in view.
+//! Everyday segments, in seeded mixes: segments as in programs that draw or query the
+//! contents of a view.
 //!
-//! Next to none of them is singular. What clipping them costs is decided by how many
-//! are outside, inside and cut, and in what order they come: at random, which no
-//! branch predictor learns.
+//! Almost none of them is singular. The cost of clipping them depends on the shares that are
+//! outside, inside and cut, and on their order, which is random, so that no branch predictor
+//! learns it.
 
 use super::Random;
 use crate::frustum::{EndRect, Shape};
@@ -13,11 +13,11 @@ use std::fmt;
 /// The depth range of the view.
 const NEAR: f64 = 1.0;
 const FAR: f64 = 100.0;
-/// Half-extents for each unit of distance: 60 degrees high, 16:9.
+/// Half-extents per unit of distance: 60 degrees high, 16:9.
 const TAN_Y: f64 = 0.577_350_269_189_625_8;
 const TAN_X: f64 = TAN_Y * 16.0 / 9.0;
 
-/// A kind of everyday segments, and how many of them a frustum keeps.
+/// A mix of everyday segments, by the shares that are outside, inside and cut.
 ///
 /// ```
 /// use frusta::samples::Mix;
@@ -32,6 +32,7 @@ const TAN_X: f64 = TAN_Y * 16.0 / 9.0;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[non_exhaustive]
 pub enum Mix {
     /// Nearly all are outside.
     MostlyOut,
@@ -52,7 +53,7 @@ impl Mix {
         ["mostly-out", "mixed", "mostly-in", "long-crossing"][self as usize]
     }
 
-    /// What such segments are, in one sentence.
+    /// A description of the mix, in one sentence.
     pub const fn describe(self) -> &'static str {
         [
             "A scene all around the camera: short edges, most of them elsewhere.",
@@ -62,8 +63,8 @@ impl Mix {
         ][self as usize]
     }
 
-    /// The view that the mixes are made for: a symmetric perspective one along `-z`,
-    /// from 1 to 100, 60 degrees high, 16:9.
+    /// The view of all mixes: symmetric perspective along `-z`, from 1 to 100, 60 degrees
+    /// high, 16:9.
     pub fn shape() -> Shape {
         let end = |distance: f64| {
             let (x, y) = (TAN_X * distance, TAN_Y * distance);
@@ -75,16 +76,16 @@ impl Mix {
         }
     }
 
-    /// Where the view is, by name: in its own `frame`, and in a `world` where the camera
-    /// is somewhere else and turned about all three axes.
+    /// Two poses of the view, by name: `frame` is the identity, `world` has another origin
+    /// and is rotated about all three axes.
     pub fn poses() -> [(&'static str, Pose); 2] {
         [("frame", Pose::IDENTITY), ("world", turned())]
     }
 
-    /// The first so many segments, carried from the view's frame to the world of a pose:
-    /// the same ones on every machine.
+    /// The first `count` segments, carried from the view's frame to the world by a pose. They
+    /// are the same on every machine.
     pub fn segments<T: Real>(self, count: usize, pose: &Pose) -> Vec<Segment<T>> {
-        // The seed is the variant's place: its order is part of what the mix is.
+        // The seed is the variant's index, so the order of the variants must not change.
         let mut random = Random::new(&[self as u64]);
         let to_world = |v| Vec3::from_f64(pose.to_world(v));
         let mut one = || {
@@ -125,9 +126,10 @@ impl fmt::Display for Mix {
     }
 }
 
-/// A camera somewhere, turned about all three axes.
+/// A pose rotated about all three axes.
 fn turned() -> Pose {
-    // The rotation of the quaternion (0.8, 0.36, 0.32, 0.36), of length 1.
+    // The rotation of the quaternion (0.8, 0.36, 0.32, 0.36). Its squared length is 1.0016, so
+    // the axes are orthonormal only to about three digits.
     let (w, x, y, z) = (0.8_f64, 0.36_f64, 0.32_f64, 0.36_f64);
     let axes = [
         [

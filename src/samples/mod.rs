@@ -1,10 +1,9 @@
-//! Inputs that hurt: the singular samples with their exact answers, and seeded
-//! families of cases around them. Beside them, to be fair: everyday segments, in
-//! seeded [`Mix`]es.
+//! Hard inputs: the singular samples with their exact answers, and seeded families of cases
+//! around them. For comparison there are everyday segments, in seeded [`Mix`]es.
 //!
-//! A singular case is only singular if its numbers are. So the [`Solid`]s are
-//! dyadic, and their [`singular_samples`] and [`near_misses`] are carried by a
-//! [`Placement`] to other poses without rounding anything. [`hard_box`], [`hard_obb`]
+//! A singular case must be exact to be singular. So the [`Solid`]s are
+//! dyadic, and a [`Placement`] carries their [`singular_samples`] and [`near_misses`] to
+//! other poses without rounding. [`hard_box`], [`hard_obb`]
 //! and [`hard_sphere`] make bounding volumes for the frustum of any family.
 //!
 //! ```
@@ -18,7 +17,7 @@
 //!     assert_eq!(clip.class, sample.expected.class);
 //! }
 //!
-//! // A family's case is made from its number alone.
+//! // A case of a family depends on its seed and index alone.
 //! for family in Family::ALL {
 //!     let (frustum, segment) = family.case(7, 1_000_000);
 //!     let _ = frustum.clip_segment(&segment)?;

@@ -1,10 +1,10 @@
-//! The same samples elsewhere in the world, still exact.
+//! Exact placements of the samples in the world.
 //!
 //! A placement has integer axes `a_k`, orthogonal and of equal squared length N,
-//! an origin `o` and a power of two `s`. The point with frame coordinates `c` goes
-//! to `p = o + s (c_0 a_0 + c_1 a_1 + c_2 a_2)`, an integer combination; the pose
-//! (o, a_k) sees it at `a_k . (p - o) = s N c_k`, so the rect pair is multiplied by
-//! `s N` and every relation is kept exactly. Integer axes come from integer
+//! an origin `o` and a power of two `s`. The image of the point with frame coordinates `c`
+//! is `p = o + s (c_0 a_0 + c_1 a_1 + c_2 a_2)`, an integer combination; the pose
+//! (o, a_k) has it at `a_k . (p - o) = s N c_k`, so the two rectangles are multiplied by
+//! `s N`, and every relation is kept exactly. Integer axes come from integer
 //! quaternions: those of the rotation by q, times |q|^2, are integers of squared
 //! length |q|^4.
 
@@ -12,7 +12,7 @@ use super::solid::Solid;
 use crate::frustum::{EndRect, Frustum, FrustumError, Shape};
 use crate::math::{Pose, Rect, Segment, Vec3};
 
-/// A similarity with exactly known numbers.
+/// A similarity whose coefficients are exact.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Placement {
     origin: Vec3<f64>,
@@ -21,15 +21,14 @@ pub struct Placement {
 }
 
 impl Placement {
-    /// Where the frame is the world.
+    /// The identity.
     pub const IDENTITY: Placement = Placement {
         origin: Vec3::new(0.0, 0.0, 0.0),
         axes: Pose::IDENTITY.axes,
         scale: 1.0,
     };
 
-    /// The 48 ways to permute the coordinates and change their signs; the first
-    /// is the identity.
+    /// All 48 signed permutations of the coordinates; the first is the identity.
     pub fn signed_permutations() -> Vec<Placement> {
         const ORDERS: [[usize; 3]; 6] = [
             [0, 1, 2],
@@ -56,8 +55,8 @@ impl Placement {
         all
     }
 
-    /// Rotated by an integer quaternion (w, x, y, z), not zero; entries up to 8
-    /// keep samples exact in `f32`.
+    /// The rotation by an integer quaternion (w, x, y, z), not zero, times its squared
+    /// length; entries up to 8 keep samples exact in `f32`.
     pub fn rotated([w, x, y, z]: [i8; 4]) -> Placement {
         let [w, x, y, z] = [w, x, y, z].map(f64::from);
         let axes = [
@@ -83,12 +82,12 @@ impl Placement {
         }
     }
 
-    /// With another origin, of short integers if samples are to stay exact.
+    /// The placement with another origin; short integers keep samples exact.
     pub fn moved_to(self, origin: Vec3<f64>) -> Placement {
         Placement { origin, ..self }
     }
 
-    /// Everything, the origin as well, multiplied by 2^exponent.
+    /// The placement multiplied by `2^exponent`, origin included.
     pub fn scaled(self, exponent: i16) -> Placement {
         let factor = 2.0_f64.powi(i32::from(exponent));
         Placement {
@@ -98,21 +97,22 @@ impl Placement {
         }
     }
 
-    /// Where the point with these frame coordinates goes.
+    /// The image of the point with these frame coordinates.
     pub fn point(&self, c: Vec3<f64>) -> Vec3<f64> {
         let [a, b, d] = self.axes;
         self.origin + (a * c.x + b * c.y + d * c.z) * self.scale
     }
 
-    /// Where a segment goes.
+    /// The image of a segment.
     pub fn segment(&self, segment: &Segment<f64>) -> Segment<f64> {
         Segment::new(self.point(segment.start), self.point(segment.end))
     }
 
-    /// The frustum that has this shape before it is placed.
+    /// The image of the frustum with this shape in the identity pose.
     ///
     /// # Errors
-    /// None for a solid of this module, unless the scale leaves the doubles.
+    /// Those of [`Frustum::new`]. For a [`Solid`] they occur only if the scaled numbers are out
+    /// of range.
     pub fn frustum(&self, shape: &Shape) -> Result<Frustum, FrustumError> {
         let [a, _, _] = self.axes;
         let factor = self.scale * a.dot(a);
@@ -143,7 +143,7 @@ impl Placement {
         Frustum::new(Pose::new(self.origin, self.axes), shape)
     }
 
-    /// The frustum of a solid.
+    /// The image of a solid.
     ///
     /// # Errors
     /// As [`Placement::frustum`].

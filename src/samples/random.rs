@@ -2,8 +2,8 @@
 //!
 //! SplitMix64 (Steele, Lea, Flood, *Fast splittable pseudorandom number
 //! generators*, 2014): a counter stepped by the golden ratio and scrambled by
-//! two multiply-xorshift rounds. Any seed is as good as any other, so a case is
-//! seeded by its own number and can be made alone.
+//! two multiply-xorshift rounds. Any seed is as good as any other, so the seed of a case
+//! contains its index, and it does not depend on other cases.
 
 /// A SplitMix64 generator.
 #[derive(Clone, Debug)]
@@ -12,7 +12,8 @@ pub struct Random(u64);
 const GOLDEN: u64 = 0x9e37_79b9_7f4a_7c15;
 
 impl Random {
-    /// From several numbers; a change in any of them changes everything.
+    /// Creates a generator from several numbers; a change of any of them changes the whole
+    /// sequence.
     #[must_use]
     pub fn new(parts: &[u64]) -> Self {
         let mut state = Self(0);
@@ -57,7 +58,7 @@ impl Random {
         low + self.unit() * (high - low)
     }
 
-    /// True once in `n` times.
+    /// True with probability `1 / n`.
     pub fn one_in(&mut self, n: u64) -> bool {
         self.below(n) == 0
     }
@@ -67,16 +68,16 @@ impl Random {
         if self.one_in(2) { -1.0 } else { 1.0 }
     }
 
-    /// One of several values.
+    /// One of several values, with equal probability.
     ///
     /// # Panics
-    /// There are none.
+    /// If `values` is empty.
     pub fn pick<T: Copy>(&mut self, values: &[T]) -> T {
         values[self.below(values.len() as u64) as usize]
     }
 
-    /// A power of ten with an exponent in `low..=high`. Each is the nearest
-    /// double, read from its decimal text.
+    /// A power of ten with an exponent in `low..=high`, rounded to the nearest `f64`: it is
+    /// parsed from decimal text.
     pub fn power_of_ten(&mut self, low: i64, high: i64) -> f64 {
         let exponent = self.integer(low, high);
         format!("1e{exponent}").parse().unwrap_or(1.0)

@@ -1,4 +1,4 @@
-//! The frusta of the families, with the means to aim at them.
+//! The frusta of the families, with their features for aiming.
 
 use super::family::Family;
 use super::placement::Placement;
@@ -8,31 +8,31 @@ use super::stiff;
 use crate::frustum::{Direction, EndRect, Frustum, Shape};
 use crate::math::{Pose, Real, Rect, Vec3};
 
-/// The frustum of a block of cases, with what is needed to aim at it.
+/// The frustum of a block of cases, with its features for aiming.
 #[derive(Clone, Debug)]
 pub struct Scene {
     frustum: Frustum,
     /// The shape before it is placed.
     shape: Shape,
     placed: Placed,
-    /// If it shows one of the solids: which, and where.
+    /// The index of the solid, if the frustum is the image of one.
     solid: Option<usize>,
-    /// How far the grid goes in an infinite frustum.
+    /// The depth at which the grid ends in an infinite frustum.
     reach: f64,
 }
 
-/// How the frame lies in the world.
+/// The position of the frame in the world.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Placed {
-    /// By exact numbers; the shape is scaled with the axes.
+    /// An exact placement; the shape is scaled with the axes.
     Exactly(Placement),
-    /// By a pose; the columns of the inverse of its matrix, rounded.
+    /// A pose, with the rounded columns of the inverse of its matrix.
     By { pose: Pose, columns: [Vec3<f64>; 3] },
 }
 
 impl Scene {
     pub(crate) fn new(family: Family, seed: u64, block: u64) -> Self {
-        // A few kinds of random shape may come out degenerate; try again.
+        // A few kinds of random shape may be degenerate; try again.
         (0..16)
             .find_map(|attempt| Self::attempt(family, seed, block, attempt))
             .unwrap_or_else(Self::fallback)
@@ -48,8 +48,8 @@ impl Scene {
         }
         let mut shape = stiff::shape(family, block, random);
         if stiff::is_ordinary(family) && random.one_in(2) {
-            // So that points of f32 can lie exactly on its faces.
-            shape = shape_in_singles(&shape);
+            // Points of f32 can then lie exactly on its faces.
+            shape = shape_in_f32(&shape);
         }
         match stiff::pose(family, block, random) {
             Some(pose) => Self::posed(shape, pose),
@@ -93,13 +93,13 @@ impl Scene {
         &self.frustum
     }
 
-    /// The index in [`Solid::ALL`] of the solid it shows, if it does.
+    /// The index in [`Solid::ALL`] of the solid, if the frustum is the image of one.
     pub(crate) fn solid(&self) -> Option<usize> {
         self.solid
     }
 
-    /// The point with these frame coordinates (before placing), rounded where
-    /// the numbers are long.
+    /// The point with these frame coordinates (before placement), rounded if it is not
+    /// representable.
     pub(crate) fn world(&self, c: Vec3<f64>) -> Vec3<f64> {
         match self.placed {
             Placed::Exactly(placement) => placement.point(c),
@@ -110,14 +110,14 @@ impl Scene {
         }
     }
 
-    /// The point at grid coordinates: see [`Solid`].
+    /// The point with these grid coordinates: see [`Solid`].
     pub(crate) fn at(&self, grid: [f64; 3]) -> Vec3<f64> {
         self.world(grid_point(&self.shape, self.reach, grid))
     }
 }
 
-/// How far to go in an infinite frustum: a few times the near end's width, or
-/// its depth if it is a point, so that the grid is of the frustum's own scale.
+/// The depth at which the grid ends in an infinite frustum: a few times the near end's width,
+/// or its depth if it is a point, so that the grid has the frustum's own scale.
 fn reach(shape: &Shape) -> f64 {
     let EndRect { z, rect: near } = shape.near();
     let width = (near.right - near.left).max(near.top - near.bottom);
@@ -126,14 +126,14 @@ fn reach(shape: &Shape) -> f64 {
 }
 
 /// The shape with every number rounded to `f32`.
-fn shape_in_singles(shape: &Shape) -> Shape {
-    let single = |v: f64| f64::from(f32::from_f64(v));
+fn shape_in_f32(shape: &Shape) -> Shape {
+    let to_f32 = |v: f64| f64::from(f32::from_f64(v));
     let rect = |r: Rect| {
-        let [left, right, bottom, top] = r.to_array().map(single);
+        let [left, right, bottom, top] = r.to_array().map(to_f32);
         Rect::new(left, right, bottom, top)
     };
     let end = |e: EndRect| EndRect {
-        z: single(e.z),
+        z: to_f32(e.z),
         rect: rect(e.rect),
     };
     match *shape {
@@ -153,12 +153,12 @@ fn shape_in_singles(shape: &Shape) -> Shape {
     }
 }
 
-/// Which solid a block of a sample-based family shows, and where.
+/// The solid and the placement of a block of a sample-based family.
 fn sampled(family: Family, random: &mut Random) -> Option<(usize, Placement)> {
     let permuted = |random: &mut Random| random.pick(&Placement::signed_permutations());
     let rotated = |random: &mut Random| {
         let mut entry = || random.integer(-5, 5) as i8;
-        // Never all zero.
+        // The first entry is never zero.
         Placement::rotated([1 + entry().abs(), entry(), entry(), entry()])
     };
     let moved = |random: &mut Random, placement: Placement| {
@@ -193,9 +193,9 @@ fn sampled(family: Family, random: &mut Random) -> Option<(usize, Placement)> {
     Some((solid, placement))
 }
 
-// Shapes without anything stiff about them.
+// Ordinary shapes.
 
-/// Any of the ordinary kinds.
+/// A shape of any ordinary kind.
 pub(crate) fn any_shape(random: &mut Random) -> Shape {
     match random.below(6) {
         0 => perspective(random),
@@ -235,7 +235,7 @@ pub(crate) fn finite(near: f64, near_rect: Rect, far: f64, far_rect: Rect) -> Sh
     }
 }
 
-/// Symmetric, apex at the origin.
+/// A symmetric perspective shape with its apex at the origin.
 fn perspective(random: &mut Random) -> Shape {
     let (w, h) = (random.between(0.1, 2.0), random.between(0.1, 2.0));
     let (near, far) = (random.between(0.1, 5.0), random.between(6.0, 90.0));
@@ -243,7 +243,7 @@ fn perspective(random: &mut Random) -> Shape {
     symmetric(sign * near, sign * far, w, h)
 }
 
-/// With half-widths proportional to depth.
+/// A shape with half-extents proportional to depth.
 pub(crate) fn symmetric(near: f64, far: f64, w: f64, h: f64) -> Shape {
     let rect = |z: f64| Rect::centred(z.abs() * w, z.abs() * h);
     finite(near, rect(near), far, rect(far))

@@ -1,4 +1,4 @@
-//! How the families' segments are aimed.
+//! The segments of the families.
 //!
 //! Most aim at a random feature: a grid point of the frustum with each grid
 //! coordinate 0, 1 or strictly between, so that 26 of 27 choices are a vertex, a
@@ -46,8 +46,8 @@ pub(crate) fn segment<T: Real>(family: Family, scene: &Scene, seed: u64, index: 
     Segment::new(tidy(segment.start), tidy(segment.end))
 }
 
-/// A finite coordinate; some zeros negative, because ends must come back bit for
-/// bit and the sign of a zero must not depend on their order.
+/// A finite coordinate. Some zeros are negative, because unclipped ends must keep their bits,
+/// and the sign of a zero must not depend on the order of the ends.
 pub(super) fn tidied<T: Real>(c: T, random: &mut Random) -> T {
     if c == T::ZERO && random.one_in(4) {
         -T::ZERO
@@ -58,7 +58,7 @@ pub(super) fn tidied<T: Real>(c: T, random: &mut Random) -> T {
     }
 }
 
-/// The samples and near misses of each solid, made once.
+/// The samples and near misses of each solid, computed once.
 fn samples(solid: usize) -> &'static [FrameSample] {
     static ALL: OnceLock<Vec<Vec<FrameSample>>> = OnceLock::new();
     let all = ALL.get_or_init(|| {
@@ -72,8 +72,8 @@ fn samples(solid: usize) -> &'static [FrameSample] {
     &all[solid]
 }
 
-/// Moves a value by some ulps; a zero half the time by ulps of `scale` instead
-/// of subnormals.
+/// Moves a value by some ulps; half of the zeros by ulps of `scale` instead of
+/// subnormals.
 fn bump<T: Real>(value: T, ulps: i64, scale: T, random: &mut Random) -> T {
     if value == T::ZERO && random.one_in(2) {
         let step = scale.to_f64() * 2.0 * T::UNIT_ROUNDOFF;
@@ -112,7 +112,7 @@ impl Aim<'_> {
         [(); 3].map(|()| match self.random.below(3) {
             0 => 0.0,
             1 => 1.0,
-            // Widen are exact more often than other points.
+            // Halves are exact more often than other values.
             _ if self.random.one_in(2) => 0.5,
             _ => self.random.unit(),
         })
@@ -149,7 +149,7 @@ impl Aim<'_> {
         largest(d)
     }
 
-    /// Any direction, of a length up to the frustum's size.
+    /// A random direction, of a length up to the frustum's size.
     fn direction(&mut self) -> Vec3<f64> {
         let size = self.size() * 0.5_f64.powi(self.random.integer(0, 8) as i32);
         Vec3::from([(); 3].map(|()| self.random.between(-1.0, 1.0) * size))
@@ -182,7 +182,7 @@ impl Aim<'_> {
         Segment::new(end(-back), end(forth))
     }
 
-    /// Through a feature, a few ulps away from it.
+    /// A segment through a feature, a few ulps long.
     fn through_by_ulps<T: Real>(&mut self) -> Segment<T> {
         let x = self.grid();
         let x = self.at(x);
@@ -191,7 +191,7 @@ impl Aim<'_> {
         Segment::new(start, bump_point(x, most, self.random))
     }
 
-    /// The line through a point and another feature, beyond both or beside.
+    /// A segment on the line through a point and another feature, beyond both or beside them.
     fn extended<T: Real>(&mut self, x: Vec3<T>) -> Segment<T> {
         let (x, y) = (x.to_f64(), self.feature::<T>().to_f64());
         let mut end = |p: Vec3<f64>, d: Vec3<f64>| {
@@ -242,7 +242,7 @@ impl Aim<'_> {
         self.place(&moved)
     }
 
-    /// Through the exact middle of an edge or a vertex, exactly.
+    /// A segment exactly through a vertex or the middle of an edge.
     fn through_exactly<T: Real>(&mut self) -> Segment<T> {
         let solid = Solid::ALL[self.scene.solid().unwrap_or(0)];
         let mut features = solid.features();
@@ -258,7 +258,7 @@ impl Aim<'_> {
     fn lattice<T: Real>(&mut self) -> Segment<T> {
         let mut end = || {
             if self.random.one_in(2) {
-                // A grid point, pulled to the lattice.
+                // A grid point, moved to the lattice.
                 let grid = self.grid();
                 let p: Vec3<f64> = self.at(grid);
                 return Vec3::from(p.to_array().map(|c| (2.0 * c).round() * 0.5));
@@ -296,7 +296,7 @@ impl Aim<'_> {
 
     fn near_ends<T: Real>(&mut self) -> Segment<T> {
         let segment = if self.random.one_in(3) {
-            // Dense doubles at the planes through zero: any parameter at all.
+            // Values are dense at planes through zero, so any parameter is possible.
             let inside = self.at::<T>([0.5, 0.5, 0.5]);
             let mut start = self.at::<T>([0.25, 0.75, 0.5]);
             let k = self.random.below(3) as usize;
@@ -318,8 +318,9 @@ impl Aim<'_> {
         }
     }
 
-    /// Crosses two planes through zero at `p / (p + r)` and `q / (q + s)` with
-    /// `p s - q r = 1` and all of about 51 bits: `1 / ((p + r)(q + s))` apart.
+    /// A segment that crosses two planes through zero at `p / (p + r)` and `q / (q + s)`
+    /// with `p s - q r = 1`, all of about 51 bits. The difference of the parameters is
+    /// `1 / ((p + r)(q + s))`.
     fn close<T: Real>(&mut self) -> Segment<T> {
         let [mut p, mut q, mut r, mut s] = [1_u64, 0, 0, 1];
         // Shears keep the determinant. The sums stay within a factor of two of
@@ -398,7 +399,7 @@ impl Aim<'_> {
     fn behind<T: Real>(&mut self) -> Segment<T> {
         let line = self.grid();
         let mut point = |w: f64| {
-            // Half of them along one line through the apex.
+            // Half of the segments are on one line through the apex.
             let [u, v, _] = if self.random.one_in(2) {
                 line
             } else {

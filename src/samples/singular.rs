@@ -1,11 +1,11 @@
 //! The 78 singular samples, and 26 near misses.
 //!
-//! The source: "View Frustum Culling Geometric Algorithm" (视锥体裁剪几何算法研究, in Chinese)
+//! Source: "View Frustum Culling Geometric Algorithm" (视锥体裁剪几何算法研究, in Chinese)
 //! tests with 78 groups of segments "including the singular states of
 //! the line with the frustum's vertices, edges and faces", classified by the
 //! number of intersection points, the direction of crossing and the position
-//! while the segment slides along its line. It lists none of them. The derivation
-//! here is ours: 8 vertices + 12 edges + 6 faces = 26 features, times three
+//! while the segment slides along its line. It does not list them. The derivation
+//! here is our own: 8 vertices + 12 edges + 6 faces = 26 features, times three
 //! relations:
 //!
 //! - *touching*: the segment and the frustum have one point in common, in the
@@ -19,8 +19,8 @@
 //! frustum. A pyramid has 18 features and so 54 samples; an infinite frustum 17
 //! and 51.
 //!
-//! The expected answers follow from the construction, as each sample's reason
-//! says; nothing is computed by clipping.
+//! The expected answers follow from the construction, with a reason for each sample; none
+//! is computed by clipping.
 
 use super::solid::{Feature, FeatureKind, Solid};
 use crate::clip::Class;
@@ -28,12 +28,12 @@ use crate::frustum::FaceSet;
 use crate::math::{Segment, Vec3};
 use std::fmt;
 
-/// How a sample's segment lies to its feature.
+/// The position of a sample's segment relative to its feature.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Relation {
-    /// On the feature's carrier, apart from the frustum: a near miss.
+    /// On the feature's carrier line or plane, but disjoint from the frustum: a near miss.
     Apart,
-    /// One common point.
+    /// One point in common with the frustum, on the feature.
     Touching,
     /// Through the feature into the interior.
     Crossing,
@@ -54,24 +54,24 @@ impl fmt::Display for Relation {
     }
 }
 
-/// The paper's first label: in how many points the segment meets the surface.
+/// The paper's first label: the number of points in which the segment meets the surface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Intersections {
-    /// In no point.
+    /// No point.
     None,
-    /// In one point.
+    /// One point.
     One,
-    /// In two points.
+    /// Two points.
     Two,
-    /// In a positive length.
+    /// A positive length.
     Infinite,
 }
 
-/// The paper's second label: how the segment crosses, seen in the V plane
+/// The paper's second label: the direction of crossing, projected on the V plane
 /// (frame `x` and `z`).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Crossing {
-    /// A slope of absolute value up to 1; 1 itself is our tie rule.
+    /// A slope of magnitude at most 1. (That 1 belongs here is our rule.)
     LeftRight,
     /// A steeper one.
     UpDown,
@@ -80,7 +80,7 @@ pub enum Crossing {
 /// The paper's labels of a sample; its third, the position, is the relation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Labels {
-    /// In how many points the segment meets the surface.
+    /// Number of points in which the segment meets the surface.
     pub intersections: Intersections,
     /// The direction of crossing.
     pub direction: Crossing,
@@ -91,9 +91,9 @@ pub struct Labels {
 /// A sample in the frustum's frame.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FrameSample {
-    /// Which part of the frustum it is about.
+    /// The feature of the frustum.
     pub feature: Feature,
-    /// How the segment lies to it.
+    /// The position of the segment relative to the feature.
     pub relation: Relation,
     /// The paper's labels.
     pub labels: Labels,
@@ -101,7 +101,7 @@ pub struct FrameSample {
     pub segment: Segment<f64>,
     /// The exact answer.
     pub expected: Expected,
-    /// Why that is the answer.
+    /// The reason for the answer.
     pub reason: &'static str,
 }
 
@@ -115,9 +115,9 @@ impl FrameSample {
 /// The exact answer to a sample.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Expected {
-    /// How the segment lies to the frustum.
+    /// The position of the segment relative to the frustum.
     pub class: Class,
-    /// What of it is inside; `None` exactly if the class is `Outside`.
+    /// The part inside; `None` exactly if the class is `Outside`.
     pub part: Option<ExpectedPart>,
 }
 
@@ -360,8 +360,8 @@ impl Builder<'_> {
         grid
     }
 
-    /// A direction in which the line through a vertex or an edge meets the
-    /// frustum nowhere else, and lies in no face's plane.
+    /// A direction for which the line through a vertex or an edge has no other point in common
+    /// with the frustum, and lies in no face's plane.
     fn passing(&self) -> Vec3<f64> {
         let (p, grid) = (self.middle(), self.feature.grid());
         if self.feature.is_apex() {
@@ -383,8 +383,8 @@ impl Builder<'_> {
         }
     }
 
-    /// Where a segment through the feature leaves, and the faces there; `None`
-    /// if it shall end inside.
+    /// The point at which a segment through the feature leaves, and the faces there;
+    /// `None` if it ends inside.
     fn opposite(&self) -> Option<(Vec3<f64>, FaceSet)> {
         let (kind, solid) = (self.feature.kind(), self.solid);
         let grid = self.feature.grid().map(|c| 1.0 - c);

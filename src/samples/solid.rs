@@ -1,11 +1,10 @@
-//! Frusta with exactly known features.
+//! Frusta with exact features.
 //!
-//! A frustum is addressed by a grid: `at(u, v, w)` goes from left to right with
-//! `u`, from bottom to top with `v`, from near to far with `w`. With each of the
-//! three in {0, 1/2, 1} the 27 grid points are the 8 vertices, the middles of
-//! the 12 edges, a middle of each of the 6 faces, and a point inside. The rect
-//! pairs here are small integers, so all these points, and the quarter points
-//! between them, are dyadic and exact in `f32` and `f64`.
+//! A grid addresses the points of a frustum: in `at([u, v, w])`, `u` increases from left to
+//! right, `v` from bottom to top, `w` from near to far. For `u`, `v`, `w` in {0, 1/2, 1} the
+//! 27 grid points are the 8 vertices, the middles of the 12 edges, a middle of each of
+//! the 6 faces, and a point inside. The rectangles here are small integers, so all these
+//! points, and the quarter points between them, are dyadic and exact in `f32` and `f64`.
 
 use crate::frustum::{Direction, EndRect, Face, FaceSet, Shape};
 use crate::math::{Rect, Vec3};
@@ -14,29 +13,29 @@ use std::fmt;
 /// A frustum in its own frame, with names for its features.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Solid {
-    /// What it is called.
+    /// The solid's name.
     pub name: &'static str,
-    /// The frustum.
+    /// The shape of the frustum.
     pub shape: Shape,
 }
 
-/// A vertex, an edge or a face: where on the grid its middle is, in halves.
+/// A vertex, an edge or a face, given by its middle on the grid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Feature {
     /// Grid coordinates times two, each 0, 1 or 2.
     halves: [u8; 3],
-    /// All corners of that end are one point.
+    /// Whether all corners of that end are one point.
     apex: bool,
 }
 
-/// The number of dimensions of a feature.
+/// The kind of a feature.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum FeatureKind {
-    /// A corner.
+    /// A corner of the frustum.
     Vertex,
-    /// A line between two faces.
+    /// A line segment between two faces.
     Edge,
-    /// A side or an end.
+    /// A side or an end of the frustum.
     Face,
 }
 
@@ -47,7 +46,7 @@ impl FeatureKind {
     }
 }
 
-/// Which face bounds which grid coordinate: `[at 0, at 1]`.
+/// The faces that bound each grid coordinate: `[at 0, at 1]`.
 pub(super) const BOUNDS: [[Face; 2]; 3] = [
     [Face::Left, Face::Right],
     [Face::Bottom, Face::Top],
@@ -55,7 +54,7 @@ pub(super) const BOUNDS: [[Face; 2]; 3] = [
 ];
 
 impl Feature {
-    /// A vertex, an edge or a face.
+    /// The kind of the feature.
     pub fn kind(self) -> FeatureKind {
         match self.halves.iter().filter(|&&h| h == 1).count() {
             0 => FeatureKind::Vertex,
@@ -65,7 +64,7 @@ impl Feature {
         }
     }
 
-    /// The faces whose planes contain it.
+    /// The faces whose planes contain the feature.
     pub fn faces(self) -> FaceSet {
         let mut faces: FaceSet = (0..3)
             .filter(|&k| self.halves[k] != 1)
@@ -79,12 +78,12 @@ impl Feature {
         faces
     }
 
-    /// Whether all corners of an end meet here.
+    /// Whether the feature is the apex of a pyramid.
     pub fn is_apex(self) -> bool {
         self.apex
     }
 
-    /// The grid coordinates of its middle.
+    /// The grid coordinates of the feature's middle.
     pub fn grid(self) -> [f64; 3] {
         self.halves.map(|h| 0.5 * f64::from(h))
     }
@@ -111,7 +110,7 @@ impl Solid {
         EndRect::new(8.0, -8.0, 8.0, -4.0, 4.0),
         EndRect::new(40.0, -40.0, 40.0, -20.0, 20.0),
     );
-    /// An off-axis one that looks along `-z`, with one side parallel to the axis.
+    /// An off-axis frustum that extends along `-z`, with one side parallel to the axis.
     pub const OFF_AXIS: Solid = Solid::finite(
         "off-axis",
         EndRect::new(-16.0, -8.0, 24.0, -4.0, 12.0),
@@ -123,7 +122,7 @@ impl Solid {
         EndRect::new(-4.0, -16.0, 16.0, -8.0, 8.0),
         EndRect::new(12.0, -16.0, 16.0, -8.0, 8.0),
     );
-    /// One that narrows with depth and is sheared.
+    /// A sheared frustum that narrows with depth.
     pub const SHEARED: Solid = Solid::finite(
         "sheared",
         EndRect::new(0.0, -32.0, 32.0, -32.0, 0.0),
@@ -150,7 +149,7 @@ impl Solid {
             direction: Direction::PlusZ,
         },
     };
-    /// An infinite off-axis one along `-z`.
+    /// An infinite off-axis frustum along `-z`.
     pub const INFINITE_OFF_AXIS: Solid = Solid {
         name: "infinite-off-axis",
         shape: Shape::Infinite {
@@ -160,7 +159,7 @@ impl Solid {
         },
     };
 
-    /// All of the above.
+    /// All solids.
     pub const ALL: [Solid; 8] = [
         Self::SYMMETRIC,
         Self::OFF_AXIS,
@@ -172,7 +171,7 @@ impl Solid {
         Self::INFINITE_OFF_AXIS,
     ];
 
-    /// How far the grid goes in an infinite frustum.
+    /// The depth at which the grid ends in an infinite frustum.
     const REACH: f64 = 32.0;
 
     const fn finite(name: &'static str, near: EndRect, far: EndRect) -> Self {
@@ -180,13 +179,13 @@ impl Solid {
         Self { name, shape }
     }
 
-    /// The point at grid coordinates; exact while the numbers are short.
+    /// The point with these grid coordinates; exact if it is representable.
     pub fn at(&self, [u, v, w]: [f64; 3]) -> Vec3<f64> {
         grid_point(&self.shape, Self::REACH, [u, v, w])
     }
 
-    /// Its vertices, edges and faces: 26 with two proper rectangles, 18 for a
-    /// pyramid, 17 if there is no far end.
+    /// The vertices, edges and faces: 26 if both ends are proper rectangles, 18 for a
+    /// pyramid, 17 without a far end.
     pub fn features(&self) -> Vec<Feature> {
         let mut features = Vec::new();
         for w in [0, 1, 2] {
@@ -197,7 +196,7 @@ impl Solid {
                     let exists = match w {
                         1 => !centre,
                         2 if self.is_infinite() => false,
-                        // Of all that meets in an apex, name it once.
+                        // All features of an end that is an apex are one.
                         _ => !apex || centre,
                     };
                     if exists {
@@ -210,7 +209,7 @@ impl Solid {
         features
     }
 
-    /// Whether there is no far end.
+    /// Whether the solid has no far end.
     pub fn is_infinite(&self) -> bool {
         matches!(self.shape, Shape::Infinite { .. })
     }
@@ -230,8 +229,8 @@ impl Solid {
     }
 }
 
-/// The point at grid coordinates of any shape, in its frame; rounded where the
-/// numbers are long. An infinite shape counts as ending at depth `reach`.
+/// The point with these grid coordinates in the frame of any shape, rounded if it is not
+/// representable. The grid of an infinite shape ends at depth `reach`.
 pub(crate) fn grid_point(shape: &Shape, reach: f64, [u, v, w]: [f64; 3]) -> Vec3<f64> {
     let near = shape.near();
     let far = match *shape {

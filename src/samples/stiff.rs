@@ -1,5 +1,5 @@
-//! The shapes and poses of the families that strain arithmetic. Each family's
-//! parameters are here, exactly as its description names them.
+//! The shapes and poses of the families that strain arithmetic. The parameters of each family
+//! are those of its description.
 
 use super::family::Family;
 use super::placement::Placement;
@@ -16,9 +16,9 @@ const NARROW: [f64; 2] = [8.726_646_260_193_79e-6, 5e-9];
 /// tan(89.9999995 degrees).
 const WIDE: f64 = 114_591_559.026_164_5;
 
-/// Whether a block far from the origin shows the shape of 1e-3 at an origin of
-/// 1e15, or else a shape with coordinates of 1e15 itself. Not drawn: the second
-/// kind may come out flat, and trying again must not turn it into the first.
+/// Whether a block far from the origin has a shape of size 1e-3 at an origin of 1e15; the others
+/// have a shape with coordinates of 1e15. It is not random: the second kind may be flat, and
+/// another attempt must not turn it into the first.
 fn is_small(block: u64) -> bool {
     block.is_multiple_of(2)
 }
@@ -47,7 +47,7 @@ pub(crate) fn shape(family: Family, block: u64, random: &mut Random) -> Shape {
         Family::ProductsUnderflow => scaled(&any_shape(random), 1e-160),
         Family::ProductsOverflow => scaled(&any_shape(random), 1e155),
         Family::Huge => scaled(&any_shape(random), 1e298),
-        Family::SingleFar => single_far(random),
+        Family::SingleFar => far_in_f32(random),
         Family::CrossingNearEnds => through_zero(random),
         Family::CrossingClose => {
             // The edge between near and right is the y axis.
@@ -110,7 +110,7 @@ fn view(family: Family, random: &mut Random) -> Shape {
     }
 }
 
-/// Whether nothing is lost if the shape's numbers are rounded to `f32`.
+/// Whether the shape's numbers may be rounded to `f32` without losing the family's property.
 pub(crate) fn is_ordinary(family: Family) -> bool {
     let fine = matches!(
         family,
@@ -125,7 +125,7 @@ pub(crate) fn pose(family: Family, block: u64, random: &mut Random) -> Option<Po
         Family::FreePose => Some(free_pose(random)),
         Family::Random if random.one_in(2) => Some(free_pose(random)),
         Family::FarFromOrigin if is_small(block) => {
-            // Of all its points only the origin is a double.
+            // Its origin is its only representable point.
             let origin = Vec3::new(1e15, -1e15, 1e15 + 0.125);
             let axes = if random.one_in(2) {
                 Pose::IDENTITY.axes
@@ -156,7 +156,7 @@ pub(crate) fn pose(family: Family, block: u64, random: &mut Random) -> Option<Po
     }
 }
 
-/// Where a block without a pose of its own is.
+/// The placement of a block that has no pose of its own.
 pub(crate) fn placement(family: Family, random: &mut Random) -> Placement {
     let rotates = !matches!(
         family,
@@ -204,7 +204,7 @@ fn unit_rotation(random: &mut Random) -> [Vec3<f64>; 3] {
 fn free_pose(random: &mut Random) -> Pose {
     let mut axes = unit_rotation(random);
     if random.one_in(2) {
-        // Skew and of unequal lengths, either handed.
+        // Skew axes of unequal lengths and either handedness.
         let k = random.between(-0.5, 0.5);
         axes = [
             axes[0] + axes[1] * k,
@@ -263,7 +263,7 @@ fn few_ulps(random: &mut Random, offset: f64) -> Shape {
     integer_pair(random, unit, offset, size)
 }
 
-fn single_far(random: &mut Random) -> Shape {
+fn far_in_f32(random: &mut Random) -> Shape {
     let offset = random.pick(&[1e7_f32, 3e10, 1e15]);
     let unit = f64::from(offset.next_up()) - f64::from(offset);
     let size = random.pick(&[2, 16, 4096]);
@@ -275,7 +275,7 @@ fn subnormal(random: &mut Random) -> Shape {
     integer_pair(random, 5e-324, 0.0, size)
 }
 
-/// Planes through zero, where doubles are dense.
+/// A shape with planes through zero, where values are dense.
 fn through_zero(random: &mut Random) -> Shape {
     let far = random.between(1.0, 10.0);
     let (w, h) = (random.between(1.0, 4.0), random.between(1.0, 4.0));
@@ -317,7 +317,7 @@ fn apex_width(random: &mut Random) -> Shape {
     }
 }
 
-/// Every number with its own exponent, from subnormal to 1e300.
+/// A shape in which every number has its own exponent, from subnormal to 1e300.
 fn mixed_scale(random: &mut Random) -> Shape {
     let mut number = || {
         let exponent = random.integer(-1074, 996) as i32;
@@ -337,14 +337,14 @@ fn mixed_scale(random: &mut Random) -> Shape {
     finite(near, rect(), far, rect())
 }
 
-/// Sheets one ulp thick.
+/// A sheet one ulp thick.
 fn thin(random: &mut Random) -> Shape {
     let at = random.between(1.0, 4.0);
     let after = at.next_up();
     let (bottom, top) = (random.between(-4.0, 0.0), random.between(1.0, 4.0));
     let sheet = |left, right| Rect::new(left, right, bottom, top);
     let (near, far) = match random.below(4) {
-        // Slanted by one ulp: no double strictly between.
+        // Slanted by one ulp: no value strictly between.
         0 => (sheet(at, at), sheet(after, after.next_up())),
         1 => (sheet(at, after), sheet(after, after.next_up())),
         // Steeply slanted.

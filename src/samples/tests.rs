@@ -1,4 +1,4 @@
-//! The samples are as many and as exact as promised.
+//! Numbers and exactness of the samples.
 
 use super::*;
 use std::collections::BTreeSet;
@@ -61,7 +61,7 @@ fn forty_eight_different_permutations() {
 }
 
 #[test]
-fn placed_samples_are_exact_in_single_precision() {
+fn placed_samples_are_exact_in_f32() {
     let placement = Placement::rotated([1, -2, 2, 4])
         .moved_to([7.0, -3.0, 5.0].into())
         .scaled(-9);
@@ -76,7 +76,7 @@ fn placed_samples_are_exact_in_single_precision() {
     }
 }
 
-/// What construction says, and what rational arithmetic says.
+/// The answers by construction, compared with rational arithmetic.
 #[cfg(feature = "oracle")]
 mod against_the_oracle {
     use super::*;
@@ -95,7 +95,7 @@ mod against_the_oracle {
         all
     }
 
-    /// A family is worth its time if its answers are of several kinds.
+    /// A family is useful only if its answers are of several kinds.
     #[test]
     fn families_reach_what_they_are_for() {
         for &family in Family::ALL {
@@ -234,7 +234,7 @@ fn seeds_make_a_difference() {
 fn no_family_falls_back_on_another_shape() {
     for &family in Family::ALL {
         let made = (0..400).filter(|&b| scene::Scene::attempt(family, 3, b, 0).is_some());
-        // Tiny integer rectangles may be flat; then the next attempt serves.
+        // Tiny integer rectangles may be flat; the next attempt is then used.
         let made = made.count();
         assert!(made > 250, "{family}: {made} of 400");
     }
@@ -279,7 +279,7 @@ fn coordinates_are_as_large_as_claimed() {
     }
 }
 
-/// The mix must not depend on which shapes come out flat and are drawn again.
+/// The shares must not depend on which shapes are flat and replaced.
 #[test]
 fn far_away_there_are_two_kinds_in_equal_shares() {
     let mut small = 0;
@@ -298,7 +298,7 @@ fn far_away_there_are_two_kinds_in_equal_shares() {
 }
 
 #[test]
-fn single_precision_is_strained_at_each_distance() {
+fn f32_is_strained_at_each_distance() {
     let mut blocks = [0; 3];
     for block in 0..400 {
         let scene = Family::SingleFar.scene(11, block);

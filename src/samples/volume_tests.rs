@@ -1,4 +1,4 @@
-//! The volumes have the relations to their frusta that they are made for.
+//! The volumes have the intended positions relative to their frusta.
 
 use super::*;
 use crate::cull::{Aabb, Containment, Obb, Sphere, Volume};
@@ -20,20 +20,20 @@ fn moved<T: Real>(v: Vec3<T>, ulps: [i32; 3]) -> Vec3<T> {
     Vec3::from([0, 1, 2].map(|k| stepped(v[k], ulps[k], scale)))
 }
 
-/// All eight ways to move by so many ulps.
+/// All eight combinations of moving each coordinate by `ulps` up or down.
 fn ways(ulps: i32) -> impl Iterator<Item = [i32; 3]> {
     (0..8).map(move |i| [0, 1, 2].map(|k| if i >> k & 1 == 0 { ulps } else { -ulps }))
 }
 
-/// A volume and its neighbours, no number of which is farther than so many ulps away.
+/// A volume and its neighbours, whose numbers differ by at most the given ulps.
 trait Hard: Copy + Into<Volume> {
-    fn make(scene: &Scene, number: u64) -> Self;
+    fn make(scene: &Scene, index: u64) -> Self;
     fn neighbours(self, ulps: i32) -> Vec<Self>;
 }
 
 impl<T: Real> Hard for Aabb<T> {
-    fn make(scene: &Scene, number: u64) -> Self {
-        hard_box(scene, 1, number)
+    fn make(scene: &Scene, index: u64) -> Self {
+        hard_box(scene, 1, index)
     }
 
     /// The smallest, if there is one, and the largest.
@@ -45,8 +45,8 @@ impl<T: Real> Hard for Aabb<T> {
 }
 
 impl<T: Real> Hard for Obb<T> {
-    fn make(scene: &Scene, number: u64) -> Self {
-        hard_obb(scene, 1, number)
+    fn make(scene: &Scene, index: u64) -> Self {
+        hard_obb(scene, 1, index)
     }
 
     fn neighbours(self, ulps: i32) -> Vec<Self> {
@@ -59,8 +59,8 @@ impl<T: Real> Hard for Obb<T> {
 }
 
 impl<T: Real> Hard for Sphere<T> {
-    fn make(scene: &Scene, number: u64) -> Self {
-        hard_sphere(scene, 1, number)
+    fn make(scene: &Scene, index: u64) -> Self {
+        hard_sphere(scene, 1, index)
     }
 
     fn neighbours(self, ulps: i32) -> Vec<Self> {
@@ -77,8 +77,8 @@ fn cases<V: Hard>(family: Family, of_block: u64, mut each: impl FnMut(&Oracle, V
     for block in 0..8 {
         let scene = family.scene(1, block);
         let oracle = Oracle::new(scene.frustum());
-        for number in block * BLOCK..block * BLOCK + of_block {
-            each(&oracle, V::make(&scene, number));
+        for index in block * BLOCK..block * BLOCK + of_block {
+            each(&oracle, V::make(&scene, index));
         }
     }
 }
@@ -103,9 +103,9 @@ fn half_of_the_volumes_would_have_another_answer_4_ulps_away() {
     fn check<T: Real>(family: Family) {
         let boxes = share_near::<Aabb<T>>(family);
         let oriented = share_near::<Obb<T>>(family);
-        let balls = share_near::<Sphere<T>>(family);
-        for share in [boxes, oriented, balls] {
-            assert!(share >= 0.5, "{family}: {boxes}, {oriented}, {balls}");
+        let spheres = share_near::<Sphere<T>>(family);
+        for share in [boxes, oriented, spheres] {
+            assert!(share >= 0.5, "{family}: {boxes}, {oriented}, {spheres}");
         }
     }
     for &family in Family::ALL {
@@ -116,14 +116,14 @@ fn half_of_the_volumes_would_have_another_answer_4_ulps_away() {
     }
 }
 
-/// What is between a box and a frustum.
+/// The plane that separates a box from a frustum.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Between {
     /// The plane of a face of the frustum.
     Plane,
     /// The plane of a face of the box.
     BoxFace,
-    /// No plane but one along an edge of each.
+    /// Only a plane along an edge of each.
     Edges,
     /// They have a point in common.
     Nothing,
@@ -136,7 +136,7 @@ fn between(oracle: &Oracle, v: Aabb<f64>) -> Between {
     if oracle.intersects(&v.into()) {
         return Between::Nothing;
     }
-    // As far as doubles go, but in one coordinate.
+    // The whole range of f64, except in one coordinate.
     let layer = |k: usize| {
         let far = 0.25 * f64::MAX;
         let mut layer = Aabb::new([-far; 3], [far; 3]);
@@ -150,8 +150,8 @@ fn between(oracle: &Oracle, v: Aabb<f64>) -> Between {
     }
 }
 
-/// How many boxes of all families have this between them and the frustum when they
-/// are 4 ulp smaller, and that when they are 4 ulp larger.
+/// Numbers of boxes of all families, by the separating planes of the box 4 ulp smaller and
+/// of the box 4 ulp larger.
 fn changes() -> BTreeMap<[Between; 2], u32> {
     let mut found = BTreeMap::new();
     for &family in Family::ALL {
@@ -174,10 +174,10 @@ fn boxes_touch_or_miss_by_every_kind_of_plane() {
         ([Plane, Nothing], 1000),
         ([BoxFace, Nothing], 250),
         ([Edges, Nothing], 80),
-        // Touching the plane of a face, apart from the frustum.
+        // Touching the plane of a face, but not the frustum.
         ([Plane, BoxFace], 5),
         ([Plane, Edges], 5),
-        // Apart, or not at all.
+        // Separated by the same kind in both cases, or by none.
         ([Plane, Plane], 500),
         ([BoxFace, BoxFace], 100),
         ([Edges, Edges], 40),
@@ -188,9 +188,8 @@ fn boxes_touch_or_miss_by_every_kind_of_plane() {
     }
 }
 
-/// How often a volume 4 ulp away has another answer, by which question: whether it
-/// is beyond a plane, whether it is inside, whether it has a point of the frustum
-/// though no plane changes.
+/// Numbers of volumes for which a volume 4 ulp away has another answer, by query: outside,
+/// inside, and a point in common though no plane's answer changes.
 fn answers<V: Hard>(family: Family) -> [u32; 3] {
     let mut counts = [0; 3];
     cases(family, 16, |oracle, volume: V| {
@@ -238,8 +237,8 @@ fn boxes_of_all_sizes() {
         let scene = family.scene(1, 0);
         let grid = |i: u32| [0, 1, 2].map(|k| f64::from(i >> k & 1));
         let corners = [0, 1, 2, 3, 4, 5, 6, 7].map(|i| scene.at(grid(i)));
-        for number in 0..BLOCK {
-            let Aabb { min, max } = hard_box::<f64>(&scene, 1, number);
+        for index in 0..BLOCK {
+            let Aabb { min, max } = hard_box::<f64>(&scene, 1, index);
             let zeros = (0..3).filter(|&k| min[k] == max[k]).count();
             points += u32::from(zeros == 3);
             flat += u32::from(zeros == 1);
@@ -251,32 +250,32 @@ fn boxes_of_all_sizes() {
 }
 
 #[test]
-fn volumes_are_such_and_reproducible() {
-    fn check<T: Real>(scene: &Scene, number: u64) {
+fn volumes_are_valid_and_reproducible() {
+    fn check<T: Real>(scene: &Scene, index: u64) {
         let (a, b) = (
-            hard_box::<T>(scene, 5, number),
-            hard_obb::<T>(scene, 5, number),
+            hard_box::<T>(scene, 5, index),
+            hard_obb::<T>(scene, 5, index),
         );
-        let c = hard_sphere::<T>(scene, 5, number);
+        let c = hard_sphere::<T>(scene, 5, index);
         assert_eq!((a.check(), b.check(), c.check()), (Ok(()), Ok(()), Ok(())));
-        assert_eq!(a, hard_box(scene, 5, number));
-        assert_eq!(b, hard_obb(scene, 5, number));
-        assert_eq!(c, hard_sphere(scene, 5, number));
+        assert_eq!(a, hard_box(scene, 5, index));
+        assert_eq!(b, hard_obb(scene, 5, index));
+        assert_eq!(c, hard_sphere(scene, 5, index));
         assert_ne!(
             (a, b, c),
             (
-                hard_box(scene, 6, number),
-                hard_obb(scene, 6, number),
-                hard_sphere(scene, 6, number),
+                hard_box(scene, 6, index),
+                hard_obb(scene, 6, index),
+                hard_sphere(scene, 6, index),
             )
         );
     }
     for &family in Family::ALL {
         for block in 0..20 {
             let scene = family.scene(5, block);
-            for number in block * BLOCK..block * BLOCK + 16 {
-                check::<f64>(&scene, number);
-                check::<f32>(&scene, number);
+            for index in block * BLOCK..block * BLOCK + 16 {
+                check::<f64>(&scene, index);
+                check::<f32>(&scene, index);
             }
         }
     }

@@ -1,15 +1,16 @@
-//! How the families' volumes are aimed.
+//! The volumes of the families.
 //!
-//! Two convex sets touch where a plane through a point of both has one on either side.
+//! Two convex sets touch if a plane through a common point has one of them on each side.
 //! So a touching volume starts from a [`Contact`]: a point of the frustum's surface and
 //! the normal of such a plane, between the normals of the faces that meet there. A
-//! corner of a box comes to the point and the box goes where the normal goes. If two
-//! faces' normals point opposite ways along a box's edge, a plane between them has the
-//! edge in it, and the box goes both ways along that: nothing separates the two but
-//! the edges' own plane. Likewise with a box's face on a vertex.
+//! corner of a box is placed at the point, and the box extends in the direction of the
+//! normal. If the normals of two faces have components of opposite signs along a box's
+//! edge, a plane between them contains the edge, and the box extends both ways along it:
+//! the only plane that separates the two is that of the two edges. The same holds for a
+//! box's face on a vertex.
 //!
-//! Turned back by the normal, the same volume is inside and touches the surface from
-//! there, if it is small enough for the other faces. At last every number is moved by
+//! With the opposite normal the same volume is inside and touches the surface from
+//! there, if it is small enough for the other faces. Finally every number is moved by
 //! up to 4 ulp.
 
 use super::random::Random;
@@ -20,24 +21,24 @@ use crate::cull::{Aabb, Obb, Sphere};
 use crate::frustum::{Face, FaceSet, Frustum, Shape};
 use crate::math::{Pose, Real, Vec3};
 
-/// A box along the axes for a scene, made from the scene, a seed and a number alone.
+/// An axis-aligned box for a scene, determined by the scene, a seed and an index.
 ///
 /// More than half of these boxes are within 4 ulp of touching the frustum, with a
 /// corner, an edge or a face at a vertex, an edge or a face, from outside or from
-/// inside; or of touching the plane of a face, off the face. The others have all sizes
-/// from a point to larger than the frustum; some are flat, some hold all of the
-/// frustum, some lie beyond an edge, where no face's plane separates them from it. All
-/// are finite, none is inverted.
+/// inside; or of touching the plane of a face, beside the face. The others have all sizes
+/// from a point to larger than the frustum; some are flat, some contain the whole
+/// frustum, some are beyond an edge, so that no face's plane separates them from it. All
+/// are valid: finite and not inverted.
 ///
 /// ```
 /// use frusta::samples::{BLOCK, Family, hard_box};
-/// let number = 1_000_000;
-/// let scene = Family::OffAxis.scene(7, number / BLOCK);
-/// assert!(hard_box::<f64>(&scene, 7, number).check().is_ok());
-/// assert!(hard_box::<f32>(&scene, 7, number).check().is_ok());
+/// let index = 1_000_000;
+/// let scene = Family::OffAxis.scene(7, index / BLOCK);
+/// assert!(hard_box::<f64>(&scene, 7, index).check().is_ok());
+/// assert!(hard_box::<f32>(&scene, 7, index).check().is_ok());
 /// ```
-pub fn hard_box<T: Real>(scene: &Scene, seed: u64, number: u64) -> Aabb<T> {
-    let mut random = Random::new(&[seed, number, 3]);
+pub fn hard_box<T: Real>(scene: &Scene, seed: u64, index: u64) -> Aabb<T> {
+    let mut random = Random::new(&[seed, index, 3]);
     let mut aim = Aim {
         scene,
         random: &mut random,
@@ -50,20 +51,20 @@ pub fn hard_box<T: Real>(scene: &Scene, seed: u64, number: u64) -> Aabb<T> {
         aim.aimed::<T>(axes.map(Vec3::from)).aligned()
     };
     let ends = [shape.min, shape.max].map(|end| aim.moved(Vec3::from_f64(end)));
-    // Moved ends may have changed places.
+    // The moved ends may be in the other order.
     Aabb::around(ends).unwrap_or_default()
 }
 
-/// An oriented box for a scene, as [`hard_box`] is made: half axes along the world's
-/// or the frustum's axes, rotated, skew, dependent, zero.
+/// An oriented box for a scene, as [`hard_box`] for axis-aligned ones. Its half axes are
+/// along the world's or the frustum's axes, rotated, skew, dependent or zero.
 ///
 /// ```
 /// use frusta::samples::{BLOCK, Family, hard_obb};
 /// let scene = Family::Pyramid.scene(7, 20 / BLOCK);
 /// assert!(hard_obb::<f64>(&scene, 7, 20).check().is_ok());
 /// ```
-pub fn hard_obb<T: Real>(scene: &Scene, seed: u64, number: u64) -> Obb<T> {
-    let mut random = Random::new(&[seed, number, 4]);
+pub fn hard_obb<T: Real>(scene: &Scene, seed: u64, index: u64) -> Obb<T> {
+    let mut random = Random::new(&[seed, index, 4]);
     let mut aim = Aim {
         scene,
         random: &mut random,
@@ -81,22 +82,22 @@ pub fn hard_obb<T: Real>(scene: &Scene, seed: u64, number: u64) -> Obb<T> {
     }
 }
 
-/// A ball for a scene, as [`hard_box`] is made.
+/// A sphere for a scene, as [`hard_box`] for boxes.
 ///
 /// ```
 /// use frusta::samples::{BLOCK, Family, hard_sphere};
 /// let scene = Family::Infinite.scene(7, 20 / BLOCK);
 /// assert!(hard_sphere::<f64>(&scene, 7, 20).check().is_ok());
 /// ```
-pub fn hard_sphere<T: Real>(scene: &Scene, seed: u64, number: u64) -> Sphere<T> {
-    let mut random = Random::new(&[seed, number, 5]);
+pub fn hard_sphere<T: Real>(scene: &Scene, seed: u64, index: u64) -> Sphere<T> {
+    let mut random = Random::new(&[seed, index, 5]);
     let mut aim = Aim {
         scene,
         random: &mut random,
     };
-    let (center, radius) = aim.ball::<T>();
+    let (center, radius) = aim.sphere::<T>();
     let center = aim.moved(Vec3::from_f64(center));
-    // The radius as a vector, to be moved as all the rest is.
+    // The radius is moved as a vector, like the other numbers.
     let radius = aim.moved(Vec3::new(T::from_f64(radius), T::ZERO, T::ZERO));
     Sphere {
         center,
@@ -104,7 +105,7 @@ pub fn hard_sphere<T: Real>(scene: &Scene, seed: u64, number: u64) -> Sphere<T> 
     }
 }
 
-/// Where and how a volume may touch the frustum.
+/// A point at which a volume may touch the frustum.
 struct Contact {
     at: Vec3<f64>,
     /// The normals of the faces that meet there, outwards.
@@ -179,7 +180,7 @@ fn unit(v: Vec3<f64>) -> Vec3<f64> {
     }
 }
 
-/// A box that has the point `at` at the place given by `sides`, each in -1..=1.
+/// A box with the point `at` at the position `sides` within the box, each in -1..=1.
 struct Aimed {
     at: Vec3<f64>,
     half_axes: [Vec3<f64>; 3],
@@ -187,8 +188,8 @@ struct Aimed {
 }
 
 impl Aimed {
-    /// For half axes along the coordinates. The end that is at the point has the
-    /// point's coordinate exactly.
+    /// The axis-aligned box, for half axes along the coordinates. An end at the point has
+    /// the point's coordinate exactly.
     fn aligned(&self) -> Aabb<f64> {
         let end = |sign: f64| {
             let offset = |j: usize| self.half_axes[j][j] * (sign - self.sides[j]);
@@ -207,13 +208,13 @@ impl Aimed {
 }
 
 impl Aim<'_> {
-    /// As it comes or moved by up to 4 ulp; finite.
+    /// The point, unchanged or moved by up to 4 ulp; finite.
     fn moved<T: Real>(&mut self, p: Vec3<T>) -> Vec3<T> {
         let p = self.bumped(p, 4);
         Vec3::from(p.to_array().map(|c| tidied(c, self.random)))
     }
 
-    /// Half a box's extent: none, some ulps, a part of the frustum's size, or more.
+    /// Half a box's extent: zero, some ulps, a part of the frustum's size, or more.
     fn extent<T: Real>(&mut self) -> f64 {
         let size = self.size();
         match self.random.below(8) {
@@ -243,22 +244,22 @@ impl Aim<'_> {
         let pose = self.scene.frustum().pose();
         let axes = match self.random.below(6) {
             0 => Pose::IDENTITY.axes,
-            // At right angles to the frustum's ends and axes, or along them.
+            // Along the frustum's axes, or perpendicular to two of them.
             1 => pose.axes,
             2 => {
                 let [x, y, z] = pose.axes;
                 [y.cross(z), z.cross(x), x.cross(y)]
             }
-            // At right angles.
+            // Orthogonal axes.
             3 => [a, a.cross(b), a.cross(b).cross(a)],
-            // Short numbers, exact sums.
+            // Short numbers, for exact sums.
             4 => [a, b, c].map(|v| Vec3::from(v.to_array().map(|c| (8.0 * c).round()))),
             _ => [a, b, c],
         };
         let extents = self.extents::<T>();
         let mut axes = [0, 1, 2].map(|k| unit(axes[k]) * extents[k]);
         if self.random.one_in(8) {
-            // A parallelogram, or what is left of it.
+            // A parallelogram, or a degenerate one.
             axes[2] = self
                 .random
                 .pick(&[axes[0], axes[1] - axes[0], -axes[1] * 0.5]);
@@ -266,7 +267,7 @@ impl Aim<'_> {
         axes
     }
 
-    /// The box around the frustum: all of its faces touch.
+    /// The bounding box of the frustum: all of its faces touch.
     fn bounds(&mut self) -> Aabb<f64> {
         let corners = self.corners();
         Aabb::around(corners).unwrap_or_default()
@@ -279,7 +280,7 @@ impl Aim<'_> {
         })
     }
 
-    /// At a vertex, an edge or a face; sometimes in the plane of a face beside it.
+    /// A contact at a vertex, an edge or a face; sometimes in the plane of a face, beside it.
     fn contact<T: Real>(&mut self) -> Contact {
         let frustum = self.scene.frustum();
         loop {
@@ -312,7 +313,7 @@ impl Aim<'_> {
         }
     }
 
-    /// Any normal between those of a contact; half the time one of them.
+    /// A random normal between those of a contact; in half of the calls one of them.
     fn between(&mut self, contact: &Contact) -> Vec3<f64> {
         if self.random.one_in(2) {
             return self.random.pick(&contact.normals);
@@ -323,7 +324,7 @@ impl Aim<'_> {
         })
     }
 
-    /// Puts a box somewhere, mostly so that it touches.
+    /// A box at a random position, in most cases one at which it touches.
     fn aimed<T: Real>(&mut self, mut half_axes: [Vec3<f64>; 3]) -> Aimed {
         let contact = self.contact::<T>();
         let mut at = contact.at;
@@ -336,22 +337,22 @@ impl Aim<'_> {
                     sides,
                 };
             }
-            // Beyond an edge, ...
+            // Beyond an edge.
             2 | 3 => {
                 let normal = self.across(&contact, &half_axes);
                 let gap = self.size() * 0.5_f64.powi(self.random.integer(4, 24) as i32);
                 at = unit(normal).times_plus(gap, at);
                 normal
             }
-            // ... an edge on it, ...
+            // An edge on an edge.
             4..=7 => self.across(&contact, &half_axes),
-            // ... a face on a vertex, ...
+            // A face on a vertex.
             8 | 9 => {
                 let normal = self.face(&half_axes);
                 at = Vec3::<T>::from_f64(self.farthest(normal)).to_f64();
                 normal
             }
-            // ... from inside, ...
+            // From inside.
             10 | 11 => {
                 let less = 0.5_f64.powi(self.random.integer(2, 16) as i32);
                 half_axes = half_axes.map(|h| unit(h) * (self.size() * less));
@@ -359,7 +360,7 @@ impl Aim<'_> {
                 at = contact.at;
                 -self.between(&contact)
             }
-            // ... a corner.
+            // A corner.
             _ => self.between(&contact),
         };
         Aimed {
@@ -369,8 +370,8 @@ impl Aim<'_> {
         }
     }
 
-    /// A normal between two of a contact's that is at right angles to one of the half
-    /// axes; any between them if there is none.
+    /// A normal between two of a contact's that is perpendicular to one of the half axes; any
+    /// between them if there is none.
     fn across(&mut self, contact: &Contact, half_axes: &[Vec3<f64>; 3]) -> Vec3<f64> {
         let first = self.random.below(3) as usize;
         let normals = &contact.normals;
@@ -386,7 +387,7 @@ impl Aim<'_> {
         self.between(contact)
     }
 
-    /// The normal of a box's face, either way.
+    /// The normal of a box's face, with a random sign.
     fn face(&mut self, half_axes: &[Vec3<f64>; 3]) -> Vec3<f64> {
         let [a, b, c] = half_axes.map(unit);
         let normal = self.random.pick(&[a.cross(b), b.cross(c), c.cross(a)]);
@@ -405,8 +406,8 @@ impl Aim<'_> {
         )
     }
 
-    /// On which side of a box, of those that a half axis goes to, the point is: the one
-    /// that the normal comes from; anywhere between if the two are at right angles.
+    /// The position of the point along a half axis: on the side opposite to the normal, or at
+    /// random between the sides if the two are perpendicular.
     fn side(&mut self, normal: Vec3<f64>, half_axis: Vec3<f64>) -> f64 {
         let slope = unit(normal).dot(unit(half_axis));
         if slope.abs() <= 4.0 * f64::EPSILON {
@@ -416,17 +417,17 @@ impl Aim<'_> {
         }
     }
 
-    /// Centre and radius of a ball.
-    fn ball<T: Real>(&mut self) -> (Vec3<f64>, f64) {
+    /// Centre and radius of a sphere.
+    fn sphere<T: Real>(&mut self) -> (Vec3<f64>, f64) {
         let mut contact = self.contact::<T>();
         let normal = match self.random.below(16) {
             0 | 1 => return (self.around(), self.extent::<T>()),
             2 => {
-                // About all of it.
+                // Around most of the frustum.
                 let middle = self.scene.at([0.5, 0.5, 0.5]);
                 return (middle, self.size() * self.random.between(0.5, 2.0));
             }
-            // Of integers with an integer length.
+            // A normal of integers with an integer length.
             3..=6 => self.short(&contact),
             // From inside.
             7..=9 => {
@@ -440,8 +441,8 @@ impl Aim<'_> {
         (normal.times_plus(size, contact.at), length * size)
     }
 
-    /// A vector of integers with an integer length that goes away from the frustum, if
-    /// one is found.
+    /// A vector of integers with an integer length that points away from the frustum, if one
+    /// is found.
     fn short(&mut self, contact: &Contact) -> Vec3<f64> {
         const SHORT: [[f64; 3]; 5] = [
             [1.0, 0.0, 0.0],
@@ -463,8 +464,8 @@ impl Aim<'_> {
     }
 }
 
-/// The power of two below, so that short numbers stay short. What has none of its own
-/// stays.
+/// The largest power of two that is not above, so that short numbers stay short; zero and
+/// subnormals are unchanged.
 fn power_of_two(size: f64) -> f64 {
     let power = f64::from_bits(size.to_bits() & f64::INFINITY.to_bits());
     if power > 0.0 { power } else { size }

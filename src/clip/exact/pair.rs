@@ -58,7 +58,7 @@ pub(super) fn construct<const TIES: bool>(
         let own = ends.end.bitselect(all(q), all(p));
         ends.crossing.bitselect(v, own)
     };
-    let z = filter.precise.exact_depth(faces, crossed(start.z, end.z));
+    let z = filter.precise.z_or_exact(faces, crossed(start.z, end.z));
     Pair {
         t: select(t, 0.0, 1.0),
         x: select(crossed(start.x, end.x), start.x, end.x),

@@ -270,7 +270,9 @@ fn nearest_double_double<T: Real>(staged: &Staged<'_>, face: Face) -> Option<(T,
     } else {
         (end, start)
     };
-    let level = filter.identity.then(|| staged.frustum.shape().level(face));
+    let level = filter
+        .identity
+        .then(|| staged.frustum.shape().constant_coordinate(face));
     let coordinate = |k: usize| {
         if let Some(Some((axis, at))) = level
             && axis == k

@@ -14,7 +14,7 @@ use crate::exact::Number;
 use crate::exact::dyadic::Dyadic;
 use crate::exact::expansion::{Expansion, in_safe_range};
 use crate::frustum::eval::boundary::boundary;
-use crate::frustum::eval::filter::{Filter, PRECISE, Values};
+use crate::frustum::eval::filter::{DOUBLE_DOUBLE_ERROR_PER_THRESHOLD, Filter, Values};
 use crate::frustum::{Face, Frustum};
 use crate::math::{End, Segment, Vec3};
 use std::cmp::Ordering;
@@ -165,7 +165,7 @@ impl<'a> Staged<'a> {
         }
         // Each value is within an eighth of its threshold, and T >= 128 u g
         // covers the products' own rounding; the sum below is four times both.
-        // It does not underflow: T >= FLOOR = 2^-500.
+        // It does not underflow: T >= UNDERFLOW_ERROR = 2^-500.
         let t = |face, v: &Values| filter.threshold(face, v.size);
         let (tpa, tqa) = (t(a, p), t(a, q));
         let (tpb, tqb) = (t(b, p), t(b, q));
@@ -191,7 +191,7 @@ impl<'a> Staged<'a> {
         let (pa, qa) = (at(a, start), at(a, end));
         let (pb, qb) = (at(b, start), at(b, end));
         let cross = qa.mul(pb).add(pa.mul(qb).neg());
-        let t = |face, size| PRECISE * filter.threshold(face, size);
+        let t = |face, size| DOUBLE_DOUBLE_ERROR_PER_THRESHOLD * filter.threshold(face, size);
         let bound = t(a, sq) * pb.hi.abs() + t(b, sp) * qa.hi.abs();
         let bound = bound + t(a, sp) * qb.hi.abs() + t(b, sq) * pa.hi.abs();
         let bound = bound + (t(a, sp) * t(b, sq) + t(a, sq) * t(b, sp)) + TINY;

@@ -136,7 +136,7 @@ impl<S: Simd> Site<S> {
         let t = self.from_end.select(one - tau, tau);
         let signed = self.from_end.select(-tau, tau);
         let mut z = self.crossed(signed, p.z, q.z);
-        if let Some((level, at)) = filter.precise.levels(self.faces) {
+        if let Some((level, at)) = filter.precise.exact_z(self.faces) {
             z = quad.mask(level).select(quad.lanes(at), z);
         }
         Ends {

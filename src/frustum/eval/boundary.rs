@@ -10,9 +10,9 @@
 //! low     s [(x - n) D - (f - n)(z - z_near)]     high   the negative of it
 //! ```
 //!
-//! A side that does not slope (f = n) is `x - n`; an infinite frustum's side
-//! with slope m is `x - n - m s (z - z_near)`. Every form is fixed for a face,
-//! so that ratios of its values at two points are ratios of distances.
+//! A side without slope (f = n) is `x - n`; an infinite frustum's side with slope
+//! m is `x - n - m s (z - z_near)`. The form of a face is the same at all points, so
+//! that ratios of its values at two points are ratios of distances.
 
 use crate::exact::Number;
 use crate::frustum::{Face, Frustum, Shape};
@@ -45,8 +45,8 @@ fn frame_coordinate<N: Number>(
     Ok(sum.unwrap_or_else(|| N::from_f64(0.0)))
 }
 
-/// The value of a face's boundary function, exactly, if `N` has room for it. An
-/// infinite frustum has no far face: there it is 1.
+/// The exact value of a face's boundary function, or an error if it overflows `N`. For the
+/// far face of an infinite frustum it is 1.
 pub(crate) fn boundary<N: Number>(
     frustum: &Frustum,
     face: Face,

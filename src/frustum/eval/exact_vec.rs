@@ -1,9 +1,8 @@
 //! Exact vectors for constructing frusta and for volumes.
 //!
-//! A determinant, or a difference of far points, loses nothing; one rounding
-//! ends each computation. Used once a frustum, or once for a volume that doubles leave
-//! open, which is why allocating is no concern here. Input must be finite; callers check that
-//! first.
+//! A determinant, or a difference of far points, loses nothing; each computation ends with one
+//! rounding. It runs once per frustum, or once per volume that floating point leaves undecided, so
+//! allocation is acceptable here. Input must be finite; callers check that first.
 
 use crate::exact::Number;
 pub(crate) use crate::exact::dyadic::Dyadic;
@@ -13,16 +12,18 @@ use std::cmp::Ordering;
 /// Three exact coordinates.
 pub(crate) type Dyadic3 = [Dyadic; 3];
 
-/// Roundings to the nearest double, ties to even; infinite beyond the range,
+/// Roundings to the nearest `f64`, ties to even; infinite beyond the range,
 /// never -0.
 pub(crate) trait Rounded {
-    /// The number itself.
+    /// The number, rounded.
     fn to_f64(&self) -> f64;
-    /// `self * 2^shift`.
+    /// `self * 2^shift`, rounded.
     fn scaled(&self, shift: i32) -> f64;
-    /// `self / other`; infinite if `other` is zero.
+    /// `self / other`, rounded; infinite if `other` is zero.
     fn ratio(&self, other: &Self) -> f64;
-    /// How the number compares with zero.
+    /// `self / other` rounded towards positive infinity, for `other > 0`.
+    fn ratio_up(&self, other: &Self) -> f64;
+    /// The order relative to zero.
     fn order(&self) -> Ordering;
 }
 
@@ -39,6 +40,17 @@ impl Rounded for Dyadic {
         match other.sign() {
             Ordering::Equal => f64::INFINITY,
             _ => self.round_quotient::<f64>(other) + 0.0,
+        }
+    }
+
+    fn ratio_up(&self, other: &Self) -> f64 {
+        let nearest = self.ratio(other);
+        // The nearest number is the wanted one or the one below it; infinity is never below.
+        let is_below = || (&(&Dyadic::from(nearest) * other) - self).sign() == Ordering::Less;
+        if nearest.is_finite() && is_below() {
+            nearest.next_up()
+        } else {
+            nearest
         }
     }
 
@@ -92,7 +104,7 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    /// Every finite double, subnormals and both ends of the range included.
+    /// Every finite `f64`, subnormals and both ends of the range included.
     fn finite() -> impl Strategy<Value = f64> {
         any::<u64>().prop_filter_map("infinite or NaN", |bits| {
             Some(f64::from_bits(bits)).filter(|x| x.is_finite())
@@ -109,6 +121,11 @@ mod tests {
             prop_assert_eq!((&x * &y).to_f64(), a * b);
             if b != 0.0 {
                 prop_assert_eq!(x.ratio(&y), a / b);
+                let (x, y) = (x.clone().abs(), y.clone().abs());
+                let up = x.ratio_up(&y);
+                let is_below = |q: f64| (&(&Dyadic::from(q) * &y) - &x).sign() == Ordering::Less;
+                prop_assert!(up.is_infinite() || !is_below(up), "{a} / {b} is above {up}");
+                prop_assert!(up == 0.0 || is_below(up.next_down()), "{a} / {b} is not next to {up}");
             }
         }
 
@@ -131,6 +148,22 @@ mod tests {
         assert_eq!((&sum - &huge).to_f64(), 5e-324);
         assert_eq!(tiny.order(), Ordering::Greater);
         assert_eq!((&tiny - &tiny).order(), Ordering::Equal);
+    }
+
+    #[test]
+    fn upwards_at_the_ends_of_the_range() {
+        let [zero, tiny, one, three] = [0.0, 5e-324, 1.0, 3.0].map(Dyadic::from);
+        assert_eq!(zero.ratio_up(&three), 0.0);
+        assert_eq!(tiny.ratio_up(&three), 5e-324);
+        assert_eq!((&tiny * &tiny).ratio_up(&one), 5e-324);
+        assert_eq!(Dyadic::from(1e-323).ratio_up(&three), 5e-324);
+        assert_eq!(Dyadic::from(2e-323).ratio_up(&three), 1e-323);
+        assert_eq!(one.ratio_up(&three), (1.0_f64 / 3.0).next_up());
+        assert_eq!(three.ratio_up(&one), 3.0);
+        let max = Dyadic::from(f64::MAX);
+        assert_eq!(max.ratio_up(&one), f64::MAX);
+        assert_eq!((&max + &tiny).ratio_up(&one), f64::INFINITY);
+        assert_eq!((&max + &max).ratio_up(&one), f64::INFINITY);
     }
 
     #[test]

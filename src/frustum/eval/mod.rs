@@ -1,12 +1,12 @@
-//! What is prepared from a frustum to evaluate its boundary: private, and below everything
-//! that clips or culls.
+//! Constants prepared from a frustum for the evaluation of its boundary functions: private, and
+//! used by everything that clips or culls.
 //!
 //! ```text
 //! boundary    the six boundary functions, exactly, over any number type
 //! filter      their rounded values, the error bound and the thresholds
-//! precise     the same to 106 bits
+//! precise     their values to 106 bits
 //! plain       coefficients for plain arithmetic
-//! half_space  a face as n . p + d >= 0, known exactly, with signs in stages
+//! half_space  a face as an exact inequality n . p + d >= 0, with signs in stages
 //! planes      the faces' half spaces in a batch's scalar type
 //! exact_vec   vectors of dyadic integers
 //! ```

@@ -1,7 +1,7 @@
 //! A frustum's coefficients, rounded to the scalar type of the segments.
 //!
-//! Prepared once for each frustum, so that the plain tier of every clipper
-//! starts from the same numbers. In the frame a point `(x, y, z)` has the
+//! They are prepared once per frustum, so that the plain tier of every clipper
+//! starts from the same coefficients. In the frame a point `(x, y, z)` has the
 //! depth `w = s z - s z_near` (`s` is the direction), and six boundary values,
 //! each zero on its face and positive inside:
 //!
@@ -15,7 +15,7 @@
 //! infinite one no far value. In the world each value is a plane `n . p + d`.
 //!
 //! Coefficients beyond the range of the scalar type are clamped to it, so that
-//! none is infinite or NaN. Results of plain arithmetic are then meaningless,
+//! none is infinite or NaN. The results of plain arithmetic are then meaningless,
 //! but finite.
 
 use crate::frustum::{Face, Shape};
@@ -23,12 +23,12 @@ use crate::math::{PerReal, Pose, Real, Vec3};
 use std::ops::{Add, Mul, Sub};
 use wide::f64x2;
 
-/// Which of the cheaper evaluations a frustum allows.
+/// The form of a frustum, which decides how cheaply its values can be computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Form {
     /// Opposite sides mirror each other.
     Symmetric,
-    /// Nothing to save.
+    /// Any two rectangles.
     General,
     /// No slopes.
     Orthographic,
@@ -93,12 +93,12 @@ pub(crate) struct PlainFrustum<T> {
     pub(crate) axes: [Vec3<T>; 3],
     /// The faces' planes in the world; `Far` is unused in an infinite frustum.
     pub(crate) planes: [Plane<T>; 6],
-    /// Where the magnitudes of a segment's coordinates have a sum below this,
-    /// nothing overflows on the way to its clip.
+    /// If the sum of the magnitudes of a segment's coordinates is below this, no
+    /// intermediate result of its clip overflows.
     pub(crate) limit: T,
 }
 
-/// The nearest finite number of `T`; zero for NaN.
+/// The nearest finite value of `T`; zero for NaN.
 fn nearest<T: Real>(value: f64) -> T {
     let rounded = T::from_f64(value);
     if rounded.is_finite() {
@@ -127,7 +127,7 @@ impl<T: Real> PlainFrustum<T> {
                 let depth = (far.z - near.z).abs();
                 let slope = |i: usize| {
                     let whole = (b[i] - a[i]) / depth;
-                    // Widen where a difference overflows.
+                    // Halved, in case a difference overflows.
                     let halves = (b[i] / 2.0 - a[i] / 2.0) / (far.z / 2.0 - near.z / 2.0).abs();
                     if whole.is_finite() && depth.is_finite() {
                         whole
@@ -160,8 +160,9 @@ impl<T: Real> PlainFrustum<T> {
         plain
     }
 
-    /// A value is at most three products with an axis, one of them times a slope,
-    /// beside constants; differences of two values, and of two points, double it.
+    /// The largest size for which nothing overflows. A value is at most three products
+    /// with an axis, one of them times a slope, plus constants; a difference of two
+    /// values, or of two points, is at most twice as large.
     fn find_limit(&self) -> T {
         let largest = |numbers: &[T]| numbers.iter().fold(0.0, |m, v| v.to_f64().abs().max(m));
         let axes = self.axes.map(|a| largest(&a.to_array()));
@@ -276,7 +277,7 @@ impl PerReal for PlainPair {
     }
 }
 
-/// What the values are made of: scalars, or several side by side.
+/// The type of a value: a scalar, or several side by side.
 pub(crate) trait Term:
     Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self>
 {
@@ -284,9 +285,8 @@ pub(crate) trait Term:
 impl<T: Real> Term for T {}
 impl Term for f64x2 {}
 
-/// How the values of two opposite sides are computed: each form of frustum
-/// leaves out what it does not need, and gives the same bits as the general
-/// one.
+/// The computation of the values of two opposite sides. Each form of frustum
+/// omits what it does not need, with the same bits as the general one.
 pub(crate) trait Layout {
     /// Whether there is a far face.
     const FAR: bool = true;
@@ -294,11 +294,11 @@ pub(crate) trait Layout {
     fn sides<T: Term>(bounds: &[T; 4], slopes: &[T; 4], i: usize, w: T, c: T) -> [T; 2];
 }
 
-/// One half-width for two sides.
+/// The layout with one half-width for two sides.
 pub(crate) struct Symmetric<const FAR: bool>;
-/// Nothing to save.
+/// The layout of any frustum.
 pub(crate) struct General<const FAR: bool>;
-/// No slopes.
+/// The layout without slopes.
 pub(crate) struct Orthographic;
 
 impl<const FAR: bool> Layout for Symmetric<FAR> {

@@ -1,16 +1,16 @@
 //! Boundary values in double-double: the filter's values (see
 //! [`super::filter`]) with a relative error small enough to compute with.
 //!
-//! Which face it is costs a look-up and no branch, and several faces, of one
-//! point or of several, are evaluated side by side. The rounded value goes
-//! straight through; what each of its operations lost is computed beside it,
+//! The face is selected by a look-up, not a branch, and several faces, at one
+//! point or at several, are evaluated side by side. The rounded value is computed
+//! as usual; the rounding error of each of its operations is computed beside it,
 //! exactly for sums and products, and added at the end.
 //!
 //! # The error bound
 //! In u^2, with X = A_x S, Z = A_z S (see [`super::filter`]) and c, c_low the
-//! rounded difference and its rest of a point and the pose's origin. Only what
-//! is added beside the rounded value is rounded; each such sum or product is
-//! u times something, so its rounding is u^2 times that.
+//! rounded difference of a point and the pose's origin, and its rounding error. Only
+//! the terms beside the rounded value are rounded; each such sum or product is
+//! u times something, so its rounding error is u^2 times that.
 //!
 //! *The identity pose*, where frame coordinates are the point's: one formula
 //! for all faces, `c - at - m (z - z_near)`, with W = Z + |z_near|:
@@ -27,7 +27,7 @@
 //! rests        of products 3 + 3, of sums 2, with d_low 1, all together 3 + 6  18 Y, 6 K
 //! d            the slope 15, times z_near 3, minus at 3         21 |m z_near|, 3 |at|
 //! ```
-//! Both are below 47.2 u^2 scale (`proofs/precise.gappa`); what relies on it counts with 60.
+//! Both are below 47.2 u^2 scale (`proofs/precise.gappa`); code that relies on it assumes 60.
 
 use crate::exact::double_double::Dd;
 use crate::exact::float::{Lanes, Single, Width, split, two_diff, two_prod_split, two_sum};
@@ -37,22 +37,22 @@ use wide::f64x2;
 
 /// A face over the coordinates of the identity pose.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Plane {
-    /// Which coordinate.
+struct FaceInFrame {
+    /// The index of the coordinate.
     axis: usize,
     at: f64,
-    /// The slope by z, with its upper and lower half, and what rounding it lost.
+    /// The slope by z, its upper and lower half, and its rounding error.
     slope: f64,
     halves: (f64, f64),
     rest: f64,
-    /// All bits set where a point on the face has exactly `at` for its `z`:
-    /// near and far of the identity pose.
-    level: f64,
+    /// All bits set if every point on the face has the exact `z` of `at`: near
+    /// and far of the identity pose.
+    exact_z: f64,
 }
 
 /// A face as a plane over offsets from the pose's origin.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct WorldRow {
+struct FaceInWorld {
     normal: [f64; 3],
     halves: [(f64, f64); 3],
     rests: [f64; 3],
@@ -60,17 +60,17 @@ struct WorldRow {
     offset_rest: f64,
 }
 
-impl WorldRow {
-    /// From the two axes of a face in the frame, where it is, and its slope.
-    fn new(pose: &Pose, row: &Plane, near: f64) -> Self {
-        let slope = Dd::new(row.slope, row.rest);
-        let (across, along) = (pose.axes[row.axis], pose.axes[2]);
+impl FaceInWorld {
+    /// The plane of a face, from the pose, the face in the frame, and the near `z`.
+    fn new(pose: &Pose, face: &FaceInFrame, near: f64) -> Self {
+        let slope = Dd::new(face.slope, face.rest);
+        let (across, along) = (pose.axes[face.axis], pose.axes[2]);
         let normal = [0, 1, 2].map(|j| {
             let part = slope.mul_f64(along[j]).neg();
             Dd::new(across[j], 0.0).add(part)
         });
-        let offset = slope.mul_f64(near).add(Dd::new(-row.at, 0.0));
-        WorldRow {
+        let offset = slope.mul_f64(near).add(Dd::new(-face.at, 0.0));
+        FaceInWorld {
             normal: normal.map(|n| n.hi),
             halves: normal.map(|n| split(n.hi)),
             rests: normal.map(|n| n.lo),
@@ -80,8 +80,8 @@ impl WorldRow {
     }
 }
 
-impl WorldRow {
-    /// What coordinate j contributes, the same face in each lane.
+impl FaceInWorld {
+    /// The contribution of coordinate j, for the same face in each lane.
     #[inline(always)]
     fn term<F: Lanes>(&self, j: usize, p: F, origin: Vec3<f64>) -> (F, F) {
         let halves = (p.splat(self.halves[j].0), p.splat(self.halves[j].1));
@@ -95,16 +95,16 @@ impl WorldRow {
     }
 }
 
-/// The six faces, in the order of [`super::Face::ALL`].
+/// The six faces, in the order of [`Face::ALL`](crate::Face::ALL).
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Precise {
-    /// Two more than there are, so that no bound is checked.
-    rows: [Plane; 8],
+    /// Padded to eight, so that an index modulo 8 needs no bounds check.
+    faces: [FaceInFrame; 8],
     near: f64,
-    /// What turns `c - at - m (z - z_near)` into the boundary value.
+    /// The factors that turn `c - at - m (z - z_near)` into the boundary values.
     signs: [f64; 6],
     /// Origin and planes of a pose that is not the identity.
-    world: Option<(Vec3<f64>, [WorldRow; 8])>,
+    world: Option<(Vec3<f64>, [FaceInWorld; 8])>,
 }
 
 impl Precise {
@@ -113,24 +113,24 @@ impl Precise {
         let sigma = shape.direction().sign();
         let near = shape.near();
         let bounds = near.rect.to_array();
-        let row = |axis, at, slope: Dd| Plane {
+        let face = |axis, at, slope: Dd| FaceInFrame {
             axis,
             at,
             slope: sigma * slope.hi,
             halves: split(sigma * slope.hi),
             rest: sigma * slope.lo,
-            level: f64::from_bits(if axis == 2 && pose.is_identity() {
+            exact_z: f64::from_bits(if axis == 2 && pose.is_identity() {
                 u64::MAX
             } else {
                 0
             }),
         };
-        let side = |i: usize| row(i / 2, bounds[i], slopes[i]);
-        let level = Dd::new(0.0, 0.0);
+        let side = |i: usize| face(i / 2, bounds[i], slopes[i]);
+        let no_slope = Dd::new(0.0, 0.0);
         let far = shape.far().map_or(near.z, |far| far.z);
-        let rows = [
-            row(2, near.z + 0.0, level),
-            row(2, far + 0.0, level),
+        let faces = [
+            face(2, near.z + 0.0, no_slope),
+            face(2, far + 0.0, no_slope),
             side(0),
             side(1),
             side(2),
@@ -138,18 +138,23 @@ impl Precise {
             side(3),
             side(3),
         ];
-        let world = || (pose.origin, rows.map(|r| WorldRow::new(pose, &r, near.z)));
+        let world = || {
+            (
+                pose.origin,
+                faces.map(|f| FaceInWorld::new(pose, &f, near.z)),
+            )
+        };
         Precise {
-            rows,
+            faces,
             near: near.z,
             signs: [sigma, -sigma, 1.0, -1.0, 1.0, -1.0],
             world: (!pose.is_identity()).then(world),
         }
     }
 
-    /// Values of faces (by number) at points, side by side, up to their signs:
-    /// each as a rounded value and a small rest whose exact sum is within 60 u^2
-    /// scale of the truth.
+    /// Values of faces (by index) at points, side by side, up to their signs: each
+    /// as a rounded value and a small rest, whose exact sum is within 60 u^2 scale of
+    /// the exact value.
     #[inline(always)]
     fn values<W: Width<N>, const N: usize>(
         &self,
@@ -159,8 +164,8 @@ impl Precise {
     ) -> (W::Lanes, W::Lanes) {
         match &self.world {
             None => self.values_in_frame(width, faces, points),
-            Some((origin, rows)) => {
-                values_in_world(width, *origin, faces.map(|f| &rows[f & 7]), points)
+            Some((origin, all)) => {
+                values_in_world(width, *origin, faces.map(|f| &all[f & 7]), points)
             }
         }
     }
@@ -172,53 +177,57 @@ impl Precise {
         faces: [usize; N],
         points: [Vec3<f64>; N],
     ) -> (W::Lanes, W::Lanes) {
-        let rows = faces.map(|f| &self.rows[f & 7]);
+        let faces = faces.map(|f| &self.faces[f & 7]);
         let coordinate = |j: usize| {
             let p = points[j];
-            [p.x, p.y, p.z, 0.0][rows[j].axis & 3]
+            [p.x, p.y, p.z, 0.0][faces[j].axis & 3]
         };
         let c = width.lanes(std::array::from_fn(coordinate));
         let z = width.lanes(points.map(|p| p.z));
-        let slope = width.lanes(rows.map(|r| r.slope));
-        let upper = width.lanes(rows.map(|r| r.halves.0));
-        let lower = width.lanes(rows.map(|r| r.halves.1));
-        let lanes = RowLanes {
-            at: width.lanes(rows.map(|r| r.at)),
+        let slope = width.lanes(faces.map(|f| f.slope));
+        let upper = width.lanes(faces.map(|f| f.halves.0));
+        let lower = width.lanes(faces.map(|f| f.halves.1));
+        let lanes = FaceLanes {
+            at: width.lanes(faces.map(|f| f.at)),
             slope,
             halves: (upper, lower),
-            rest: width.lanes(rows.map(|r| r.rest)),
+            rest: width.lanes(faces.map(|f| f.rest)),
         };
-        row_value(&lanes, self.near, c, z)
+        value_in_frame(&lanes, self.near, c, z)
     }
 
-    /// One face's magnitudes at points whose coordinates come axis by axis: the same bits
-    /// as [`Precise::magnitudes`].
+    /// One face's magnitudes at points whose coordinates are given axis by axis, with the same
+    /// bits as [`Precise::magnitudes`].
     #[inline(always)]
     pub(crate) fn magnitude<F: Lanes>(&self, face: usize, p: impl Fn(usize) -> F) -> F {
         let (g, rest) = match &self.world {
             None => {
-                let row = &self.rows[face & 7];
+                let face = &self.faces[face & 7];
                 let z = p(2);
-                let c = if row.axis == 2 { z } else { p(row.axis) };
+                let c = if face.axis == 2 { z } else { p(face.axis) };
                 let splat = |v: f64| z.splat(v);
-                row_value(
-                    &RowLanes {
-                        at: splat(row.at),
-                        slope: splat(row.slope),
-                        halves: (splat(row.halves.0), splat(row.halves.1)),
-                        rest: splat(row.rest),
+                value_in_frame(
+                    &FaceLanes {
+                        at: splat(face.at),
+                        slope: splat(face.slope),
+                        halves: (splat(face.halves.0), splat(face.halves.1)),
+                        rest: splat(face.rest),
                     },
                     self.near,
                     c,
                     z,
                 )
             }
-            Some((origin, rows)) => {
-                let row = &rows[face & 7];
-                let x = row.term(0, p(0), *origin);
-                let y = row.term(1, p(1), *origin);
-                let z = row.term(2, p(2), *origin);
-                sum([x, y, z], z.0.splat(row.offset), z.0.splat(row.offset_rest))
+            Some((origin, all)) => {
+                let face = &all[face & 7];
+                let x = face.term(0, p(0), *origin);
+                let y = face.term(1, p(1), *origin);
+                let z = face.term(2, p(2), *origin);
+                sum(
+                    [x, y, z],
+                    z.0.splat(face.offset),
+                    z.0.splat(face.offset_rest),
+                )
             }
         };
         (g + rest).abs()
@@ -235,23 +244,23 @@ impl Precise {
         }
     }
 
-    /// Where points on these faces have an exact `z`, and which, in the pose in
-    /// which there are such faces.
+    /// For each face whether its points have one exact `z`, and that `z`; `None`
+    /// unless the pose is the identity.
     #[inline(always)]
-    pub(crate) fn levels<const N: usize>(
+    pub(crate) fn exact_z<const N: usize>(
         &self,
         faces: [usize; N],
     ) -> Option<([bool; N], [f64; N])> {
-        let rows = faces.map(|f| &self.rows[f & 7]);
-        let levels = (rows.map(|r| r.level != 0.0), rows.map(|r| r.at));
-        self.world.is_none().then_some(levels)
+        let faces = faces.map(|f| &self.faces[f & 7]);
+        let exact_z = (faces.map(|f| f.exact_z != 0.0), faces.map(|f| f.at));
+        self.world.is_none().then_some(exact_z)
     }
 
-    /// `z`, but what near or far says of it for points that are on them.
+    /// `z`, or the exact `z` of the near or far face that was hit.
     #[inline(always)]
-    pub(crate) fn exact_depth(&self, faces: [usize; 2], z: f64x2) -> f64x2 {
-        let [a, b] = faces.map(|f| &self.rows[f & 7]);
-        f64x2::new([a.level, b.level]).bitselect(f64x2::new([a.at, b.at]), z)
+    pub(crate) fn z_or_exact(&self, faces: [usize; 2], z: f64x2) -> f64x2 {
+        let [a, b] = faces.map(|f| &self.faces[f & 7]);
+        f64x2::new([a.exact_z, b.exact_z]).bitselect(f64x2::new([a.at, b.at]), z)
     }
 
     /// The values' magnitudes, rounded: relative error below u (1 + 1/2) where
@@ -269,7 +278,7 @@ impl Precise {
 }
 
 /// A face over the coordinates of the identity pose, in each lane.
-struct RowLanes<F> {
+struct FaceLanes<F> {
     at: F,
     slope: F,
     halves: (F, F),
@@ -277,11 +286,11 @@ struct RowLanes<F> {
 }
 
 #[inline(always)]
-fn row_value<F: Lanes>(row: &RowLanes<F>, near: f64, c: F, z: F) -> (F, F) {
+fn value_in_frame<F: Lanes>(face: &FaceLanes<F>, near: f64, c: F, z: F) -> (F, F) {
     let (w, w_rest) = two_diff(z, z.splat(near));
-    let (product, low) = two_prod_split(row.slope, row.halves, w);
-    let low = low + (row.slope * w_rest + row.rest * w);
-    let (across, more) = two_diff(c, row.at);
+    let (product, low) = two_prod_split(face.slope, face.halves, w);
+    let low = low + (face.slope * w_rest + face.rest * w);
+    let (across, more) = two_diff(c, face.at);
     let (g, rest) = two_diff(across, product);
     (g, rest + (more - low))
 }
@@ -290,37 +299,37 @@ fn row_value<F: Lanes>(row: &RowLanes<F>, near: f64, c: F, z: F) -> (F, F) {
 fn values_in_world<W: Width<N>, const N: usize>(
     width: W,
     origin: Vec3<f64>,
-    rows: [&WorldRow; N],
+    faces: [&FaceInWorld; N],
     points: [Vec3<f64>; N],
 ) -> (W::Lanes, W::Lanes) {
-    let x = lanes_term(width, 0, rows, points, origin);
-    let y = lanes_term(width, 1, rows, points, origin);
-    let z = lanes_term(width, 2, rows, points, origin);
+    let x = lanes_term(width, 0, faces, points, origin);
+    let y = lanes_term(width, 1, faces, points, origin);
+    let z = lanes_term(width, 2, faces, points, origin);
     sum(
         [x, y, z],
-        width.lanes(rows.map(|r| r.offset)),
-        width.lanes(rows.map(|r| r.offset_rest)),
+        width.lanes(faces.map(|f| f.offset)),
+        width.lanes(faces.map(|f| f.offset_rest)),
     )
 }
 
-/// What coordinate j contributes, a face a lane.
+/// The contribution of coordinate j, with one face in each lane.
 #[inline(always)]
 fn lanes_term<W: Width<N>, const N: usize>(
     width: W,
     j: usize,
-    rows: [&WorldRow; N],
+    faces: [&FaceInWorld; N],
     points: [Vec3<f64>; N],
     origin: Vec3<f64>,
 ) -> (W::Lanes, W::Lanes) {
-    let normal = width.lanes(rows.map(|r| r.normal[j]));
-    let upper = width.lanes(rows.map(|r| r.halves[j].0));
-    let lower = width.lanes(rows.map(|r| r.halves[j].1));
-    let rest = width.lanes(rows.map(|r| r.rests[j]));
+    let normal = width.lanes(faces.map(|f| f.normal[j]));
+    let upper = width.lanes(faces.map(|f| f.halves[j].0));
+    let lower = width.lanes(faces.map(|f| f.halves[j].1));
+    let rest = width.lanes(faces.map(|f| f.rests[j]));
     let p = width.lanes(points.map(|p| p[j]));
     term(p, origin[j], normal, (upper, lower), rest)
 }
 
-/// What one coordinate contributes: its product with the normal's, and the rest.
+/// The contribution of one coordinate: its product with the normal's, and the rest.
 #[inline(always)]
 fn term<F: Lanes>(p: F, origin: f64, normal: F, halves: (F, F), rest: F) -> (F, F) {
     let (c, c_low) = two_diff(p, p.splat(origin));
@@ -329,7 +338,7 @@ fn term<F: Lanes>(p: F, origin: f64, normal: F, halves: (F, F), rest: F) -> (F, 
     (product, lost + low)
 }
 
-/// The three contributions and the offset.
+/// The sum of the three contributions and the offset.
 #[inline(always)]
 fn sum<F: Lanes>(
     [(x, x_rest), (y, y_rest), (z, z_rest)]: [(F, F); 3],

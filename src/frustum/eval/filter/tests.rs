@@ -76,15 +76,15 @@ fn values_are_within_the_threshold() -> Result<(), FrustumError> {
     Ok(())
 }
 
-/// No lattice where rounded slopes are not the slopes, however few their bits.
+/// There is no lattice if the rounded slopes are not exact, however few bits they have.
 #[test]
 fn a_lattice_needs_exact_slopes() -> Result<(), FrustumError> {
     for (depth, far_left) in [
-        // 1/3 is no double.
+        // 1/3 is not representable.
         (3.0, -2.0),
-        // The slope rounds to 1 over the depth; what is lost shows in the second part.
+        // The slope rounds to 1 over the depth; the rounding error is in the low part.
         (1.0, 2.0_f64.powi(-70)),
-        // Or underflows there, too.
+        // Or the low part underflows, too.
         (1024.0, 5e-324),
     ] {
         let shape = Shape::Finite {
@@ -97,7 +97,7 @@ fn a_lattice_needs_exact_slopes() -> Result<(), FrustumError> {
     Ok(())
 }
 
-/// Nor where the filter itself does not apply.
+/// There is none if the filter itself does not apply.
 #[test]
 fn a_lattice_needs_the_range_of_the_filter() -> Result<(), FrustumError> {
     for (scale, some) in [
@@ -120,7 +120,7 @@ fn a_lattice_needs_the_range_of_the_filter() -> Result<(), FrustumError> {
     Ok(())
 }
 
-/// Numbers of all magnitudes, from a seed.
+/// Seeded numbers of all magnitudes.
 struct Numbers(u64);
 
 impl Numbers {
@@ -143,7 +143,7 @@ impl Numbers {
         self.below(2 * range.unsigned_abs() as u64 + 1) as i32 - range
     }
 
-    /// Half of the time zero.
+    /// Zero in half of the calls.
     fn maybe(&mut self, exponent: i32) -> f64 {
         if self.below(2) == 0 {
             0.0
@@ -158,7 +158,7 @@ impl Numbers {
         Rect::new(a.min(b), a.max(b), c.min(d), c.max(d))
     }
 
-    /// Each group of numbers with a magnitude of its own.
+    /// A shape in which each group of numbers has a magnitude of its own.
     fn shape(&mut self, range: i32) -> Shape {
         let (e, f, z) = (
             self.exponent(range),
@@ -213,7 +213,7 @@ impl Numbers {
         Pose::new(origin, axes)
     }
 
-    /// A point that is about on a face, as far as doubles can say.
+    /// A point on a face, up to rounding.
     fn point_near_face(&mut self, frustum: &Frustum, face: Face, range: i32) -> Option<Vec3<f64>> {
         let shape = frustum.shape();
         let near = shape.near();
@@ -237,7 +237,7 @@ impl Numbers {
             bound(2 + usize::from(face == Face::Top), w),
             near.z + sigma * w,
         ];
-        // Anywhere along the face.
+        // An arbitrary position along the face.
         match face {
             Face::Bottom | Face::Top => target[0] = self.of_size(size),
             Face::Left | Face::Right => target[1] = self.of_size(size),
@@ -245,7 +245,7 @@ impl Numbers {
         }
         let mut p = solve(frustum.pose(), target);
         if self.below(2) == 0 {
-            // A little off: from an ulp to what the filter can tell.
+            // Moved by between an ulp and the filter's threshold.
             let relative = -self.exponent(9) - 44;
             p.x += p.x * self.of_size(relative);
         }
@@ -258,7 +258,7 @@ fn solve(pose: &Pose, [x, y, z]: [f64; 3]) -> Vec3<f64> {
     if pose.is_identity() {
         return Vec3::new(x, y, z);
     }
-    // FacePlanes of about unit size, so that the determinant stays in range.
+    // Axes of about unit length, so that the determinant stays in range.
     let scale = |a: Vec3<f64>| a.x.abs().max(a.y.abs()).max(a.z.abs());
     let [a, b, c] = pose.axes.map(|a| a * (1.0 / scale(a)));
     let [x, y, z] = [
@@ -270,8 +270,8 @@ fn solve(pose: &Pose, [x, y, z]: [f64; 3]) -> Vec3<f64> {
     pose.origin + (bc * x + ca * y + ab * z) * (1.0 / a.dot(bc))
 }
 
-/// How many signs next to a face were certain, by the filter and by
-/// double-double; all of them must be right.
+/// The number of certain signs next to a face, by the filter and by double-double; all of
+/// them must be right.
 fn check_next_to(frustum: &Frustum, face: Face, p: Vec3<f64>) -> [u32; 2] {
     let filter = frustum.filter();
     let values = filter.values(p);
@@ -296,9 +296,8 @@ fn check_next_to(frustum: &Frustum, face: Face, p: Vec3<f64>) -> [u32; 2] {
     })
 }
 
-/// What the filter and double-double call certain is right, whatever the
-/// magnitudes of a frustum's numbers, next to its faces and at the ends of the
-/// number range.
+/// Certain signs of the filter and of double-double are right, whatever the magnitudes of a
+/// frustum's numbers, next to its faces and at the ends of the number range.
 #[test]
 fn certain_signs_are_right() {
     let mut n = Numbers(1);
@@ -319,7 +318,7 @@ fn certain_signs_are_right() {
     assert!(certain[0] > 20_000 && certain[1] > 20_000, "{certain:?}");
 }
 
-/// A frustum without any size, seen so closely that its values are subnormal.
+/// A frustum without a size of its own, at points so close that its values are subnormal.
 #[test]
 fn values_that_underflow_are_not_certain() -> Result<(), FrustumError> {
     let mut n = Numbers(2);
@@ -339,7 +338,7 @@ fn values_that_underflow_are_not_certain() -> Result<(), FrustumError> {
                 Face::Left => axes[0] + axes[2] * frustum.filter().slope[0].abs(),
                 _ => continue,
             };
-            // Onto the plane, about.
+            // Onto the plane, up to rounding.
             let p = along - axis * (axis.dot(along) / axis.dot(axis));
             check_next_to(&frustum, face, p);
         }

@@ -1,10 +1,10 @@
-//! The floating-point filter: boundary values in double precision with a bound
-//! on their error, from constants prepared once for a frustum.
+//! The floating-point filter: boundary values in `f64` with a bound on their error, from
+//! constants prepared once per frustum.
 //!
 //! # Values
 //! In the frame, with w = s (z - z_near) the depth, a side's bound is
 //! `n + m w`, m = (f - n) / |D| its slope per unit of depth (see
-//! [`super::boundary`] for the letters), and the values are
+//! [`boundary`](super::boundary) for the letters), and the values are
 //! `g = x - (n + m w)` and `(n + m w) - x`: the boundary functions divided by
 //! |D| > 0, so with the same signs and the same crossing parameters.
 //!
@@ -14,14 +14,14 @@
 //! Rounding: p_j - o_j has relative error u, a frame coordinate
 //! `fl(a.c)` is within 4.01 u A S of the exact one; z - z_near adds
 //! u (|z| + |z_near|), the rounded slope u, the product u, the two sums
-//! u (|n| + |m w|) and u |g|. Added up:
-//! |g~ - g| <= 9.2 u scale, plus underflow, which [`FLOOR`] covers.
-//! With the identity pose 5.1 u scale. `proofs/filter.gappa` proves both.
+//! u (|n| + |m w|) and u |g|. In total
+//! |g~ - g| <= 9.2 u scale, plus underflow, which [`UNDERFLOW_ERROR`] covers.
+//! With the identity pose it is 5.1 u scale. `proofs/filter.gappa` proves both.
 //!
-//! The double-double values of [`super::precise`] are within 47.2 u^2 scale; the
-//! count is there. The code allows for 60.
+//! The double-double values of [`precise`](super::precise) are within 47.2 u^2 scale, as derived
+//! there. The code assumes 60.
 //!
-//! The *threshold* is T = 2^-46 scale + FLOOR = 128 u scale + FLOOR. So
+//! The *threshold* is T = 2^-46 scale + UNDERFLOW_ERROR = 128 u scale + UNDERFLOW_ERROR. So
 //! |g~| > T means:
 //! - the sign of g~ is the sign of g, with a factor of 13 to spare;
 //! - the double-double value has a relative error below u / 2: 47.2 u^2 of
@@ -30,25 +30,25 @@
 //! T is evaluated as `const + factor * S`, its rounding covered by that factor.
 //! The comparison is written with `>`, so that NaN and infinity fail it.
 
-use super::plain::{Form, General, Layout, Term};
-use super::precise::Precise;
 use crate::exact::double_double::Dd;
 use crate::exact::expansion::in_safe_range;
 use crate::exact::float::{Lanes, exp2, exponent_above, lowest_bit, two_diff, two_prod};
+use crate::frustum::eval::plain::{Form, General, Layout, Term};
+use crate::frustum::eval::precise::Precise;
 use crate::frustum::{Face, Frustum, Shape};
 use crate::math::{Pose, Segment, Vec3};
 use std::cmp::Ordering;
 use wide::f64x2;
 
-/// 2^-46.
-const RELATIVE: f64 = 1.4210854715202004e-14;
-/// 2^-53: double-double values, normalised, are within 60 u^2 scale, less than
-/// half of this times the threshold.
-pub(crate) const PRECISE: f64 = 1.1102230246251565e-16;
-/// 2^-500: far above what underflow can do inside [`in_range`], far below
-/// every scale.
-pub(crate) const FLOOR: f64 = 3.054_936_363_499_605e-151;
-/// Stands for the far value of an infinite frustum: never crossed.
+/// 128 u: the threshold as a fraction of the scale.
+const THRESHOLD_PER_SCALE: f64 = exp2(-46);
+/// u: more than the error of a normalised double-double value as a fraction of the
+/// threshold, which is 60 u^2 of (128 u) at most, less than u / 2.
+pub(crate) const DOUBLE_DOUBLE_ERROR_PER_THRESHOLD: f64 = exp2(-53);
+/// More than the error that underflow causes: each of a few products loses at most 2^-1075,
+/// and no more than a slope below 2^200 ([`Filter::in_range`]) multiplies it afterwards.
+pub(crate) const UNDERFLOW_ERROR: f64 = exp2(-500);
+/// The far value of an infinite frustum: positive everywhere, so never crossed.
 pub(crate) const NO_FAR: f64 = 1e300;
 
 /// Constants prepared for a frustum.
@@ -69,16 +69,16 @@ pub(crate) struct Filter {
     /// Thresholds: `side.0 + side.1 * S`.
     side: (f64, f64),
     depth: (f64, f64),
-    /// S must be below this; 0 where the filter does not apply at all.
+    /// S must be below this; 0 if the filter does not apply at all.
     limit: f64,
     lattice: Option<Lattice>,
-    /// The same to 106 bits.
+    /// The constants of the values to 106 bits.
     pub(crate) precise: Precise,
-    /// Whether the frustum's numbers fit expansions.
+    /// Whether all numbers of the frustum are in the range of expansions.
     pub(crate) expansions: bool,
 }
 
-/// Coordinates for which plain arithmetic makes no error at all.
+/// Coordinates for which plain arithmetic is exact.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Lattice {
     /// `(v + round) - round == v` exactly if v is a multiple of the unit.
@@ -92,20 +92,20 @@ struct Lattice {
 pub(crate) struct Values {
     /// (near, far), (left, right), (bottom, top).
     pub(crate) pairs: [f64x2; 3],
-    /// S, the size of the point as the bound sees it.
+    /// S, the size of the point in the error bound.
     pub(crate) size: f64,
 }
 
 impl Values {
-    /// A face's value, by number in the order of [`Face::ALL`].
+    /// A face's value, by index in the order of [`Face::ALL`].
     #[inline(always)]
     pub(crate) fn of(&self, face: usize) -> f64 {
         self.pairs[face / 2].to_array()[face % 2]
     }
 }
 
-/// For a sum S of the magnitudes of a segment's coordinates, below the limit: `constant +
-/// factor * S`.
+/// A distance for segments whose coordinates' magnitudes have a sum S below the limit:
+/// `constant + factor * S`.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Beyond {
     pub(crate) constant: f64,
@@ -128,8 +128,8 @@ impl Filter {
         }
     }
 
-    /// The same bits, with what the layout can leave out left out, in the fixed
-    /// order of operations that the error bound is for.
+    /// The values at both ends by the operations that the layout needs, with the same
+    /// bits as in any other layout, in the order that the error bound assumes.
     #[inline(always)]
     pub(crate) fn values_in<L: Layout>(&self, segment: &Segment<f64>) -> [Values; 2] {
         let Segment { start, end } = segment;
@@ -139,18 +139,18 @@ impl Filter {
             f64x2::new([start.z, end.z]),
         );
         let ([near, far, left, right, bottom, top], size) = self.values_at::<L, _>(p);
-        let ends = f64x2::transpose([near, far]);
-        let sides = f64x2::transpose([left, right]);
-        let levels = f64x2::transpose([bottom, top]);
+        let depths = f64x2::transpose([near, far]);
+        let widths = f64x2::transpose([left, right]);
+        let heights = f64x2::transpose([bottom, top]);
         let size = size.to_array();
         let values = |i: usize| Values {
-            pairs: [ends[i], sides[i], levels[i]],
+            pairs: [depths[i], widths[i], heights[i]],
             size: size[i],
         };
         [values(0), values(1)]
     }
 
-    /// The six values in the order of [`Face::ALL`], and S, of points side by side.
+    /// The six values in the order of [`Face::ALL`], and S, for points side by side.
     #[inline(always)]
     pub(crate) fn values_at<L: Layout, F: Lanes + Term>(&self, p: Vec3<F>) -> ([F; 6], F) {
         let splat = |v: f64| p.x.splat(v);
@@ -187,7 +187,7 @@ impl Filter {
         size < self.limit
     }
 
-    /// The sizes for which the bound holds are less than this.
+    /// The bound holds for sizes less than this.
     pub(crate) fn limit(&self) -> f64 {
         self.limit
     }
@@ -204,37 +204,37 @@ impl Filter {
         size.splat(self.depth.0) + size.splat(self.depth.1) * size
     }
 
-    /// The thresholds of depth and sides that crossing parameters are certified
-    /// with. With the identity pose near and far values are differences of two
-    /// doubles: relative error u, and all that counts is that their reciprocals
-    /// are finite.
+    /// The thresholds of depth and sides that certify crossing parameters. With
+    /// the identity pose, near and far values are differences of two coordinates:
+    /// their relative error is u, and only their reciprocals must be finite.
     #[inline(always)]
     pub(crate) fn crossing_thresholds<F: Lanes>(&self, size: F) -> (F, F) {
         let depth = if self.identity {
-            size.splat(FLOOR)
+            size.splat(UNDERFLOW_ERROR)
         } else {
             self.depth_threshold(size)
         };
         (depth, self.side_threshold(size))
     }
 
-    /// How far from a face both ends of a segment are certain to this filter, in units of
-    /// the largest magnitude in the face's normal (see `batch/segments/planes.rs`).
+    /// The distance from a face beyond which this filter is certain of both ends of a segment,
+    /// in units of the largest magnitude in the face's normal (see
+    /// `clip/many/intervals/planes.rs`).
     pub(crate) fn certain_beyond(&self) -> Beyond {
-        let nothing = Beyond {
+        let never = Beyond {
             constant: f64::INFINITY,
             factor: 0.0,
             limit: 0.0,
         };
         let away = 2.0 * size(self.origin);
         let limit = self.limit / 2.0 - away;
-        // The rounded normal's largest number, less what rounding may have added to it.
+        // The largest coordinate of the rounded normal, minus its largest rounding error.
         let largest = |across: Vec3<f64>, slope: f64| {
-            let number = |j: usize| {
+            let coordinate = |j: usize| {
                 let (a, b) = (across[j], slope * self.axes[2][j]);
                 (a - self.sigma * b).abs() - 2.0 * f64::EPSILON * (a.abs() + b.abs())
             };
-            number(0).max(number(1)).max(number(2))
+            coordinate(0).max(coordinate(1)).max(coordinate(2))
         };
         let [x, y, z] = self.axes;
         let across = [x, x, y, y];
@@ -242,9 +242,9 @@ impl Filter {
         let side = side.fold(f64::INFINITY, f64::min);
         let depth = z.x.abs().max(z.y.abs()).max(z.z.abs());
         if !(side > 0.0 && depth > 0.0 && limit > 0.0) {
-            return nothing;
+            return never;
         }
-        // A rounded value is within a tenth of its threshold of the true one.
+        // A rounded value is off by less than a tenth of its threshold, so 1.25 covers it.
         let part = |(constant, factor): (f64, f64), normal: f64| {
             let scale = 1.25 / normal;
             ((constant + factor * away) * scale, factor * scale)
@@ -266,8 +266,8 @@ impl Filter {
         }
     }
 
-    /// The sign of a boundary function, where the rounded value settles it. With
-    /// the identity pose the difference of two doubles has the exact sign.
+    /// The sign of a boundary function, if the rounded value decides it. With the
+    /// identity pose the difference of two coordinates has the exact sign.
     #[inline(always)]
     pub(crate) fn sign(&self, face: Face, values: &Values) -> Option<Ordering> {
         let g = values.of(face as usize);
@@ -287,7 +287,7 @@ impl Filter {
         }
     }
 
-    /// The same by double-double values, for all but the tiniest distances.
+    /// The sign by double-double values; `None` only for the smallest distances.
     pub(crate) fn precise_sign(
         &self,
         face: Face,
@@ -298,7 +298,8 @@ impl Filter {
             return None;
         }
         let value = self.precise.value(face as usize, p).hi;
-        let certain = value.abs() > PRECISE * self.threshold(face, values.size);
+        let certain =
+            value.abs() > DOUBLE_DOUBLE_ERROR_PER_THRESHOLD * self.threshold(face, values.size);
         if certain {
             value.partial_cmp(&0.0)
         } else {
@@ -306,8 +307,8 @@ impl Filter {
         }
     }
 
-    /// Whether all values at both ends, and quotients of two of them, are in exact
-    /// order: see [`Lattice`].
+    /// Whether all values at both ends are exact, and products of two of them, too: see
+    /// [`Lattice`].
     #[inline(always)]
     pub(crate) fn on_lattice(&self, segment: &Segment<f64>, p: &Values, q: &Values) -> bool {
         let Some(lattice) = self.lattice else {
@@ -329,7 +330,7 @@ impl Filter {
         self.lattice.map(|lattice| (lattice.round, lattice.limit))
     }
 
-    /// False for nearly all points that are not on the lattice; cheap.
+    /// A cheap necessary condition: false for nearly all points off the lattice.
     #[inline(always)]
     pub(crate) fn may_be_lattice(&self, p: Vec3<f64>) -> bool {
         let Some(lattice) = self.lattice else {
@@ -340,7 +341,7 @@ impl Filter {
         ((v + round) - round).simd_eq(v).all()
     }
 
-    /// Prepares a valid frustum's constants.
+    /// Prepares the constants of a valid frustum.
     pub(crate) fn new(pose: &Pose, shape: &Shape) -> Self {
         let near = shape.near();
         let far = shape.far();
@@ -387,20 +388,24 @@ impl Filter {
             constant = constant.max(self.at_near[i].abs() + slope * self.near.abs());
             factor = factor.max(if i < 2 { x } else { y } + slope * z);
         }
-        self.side = (RELATIVE * constant + FLOOR, RELATIVE * factor);
+        let terms = |constant: f64, factor: f64| {
+            let constant = THRESHOLD_PER_SCALE * constant + UNDERFLOW_ERROR;
+            (constant, THRESHOLD_PER_SCALE * factor)
+        };
+        self.side = terms(constant, factor);
         let reach = self.near.abs().max(self.far.abs());
-        self.depth = (RELATIVE * reach + FLOOR, RELATIVE * z);
-        // Below it the part of a value that changes with the point stays under
-        // 2^480, so that of faces with values of both signs no value reaches
-        // 2^482: products of two do not overflow, nor do any operand's halves.
-        // A face far from all such points may have values up to 2^602, of one
-        // sign, which nothing multiplies.
+        self.depth = terms(reach, z);
+        // Below this limit the part of a value that depends on the point is less than
+        // 2^480. A face with values of both signs then has no value of 2^482 or more, so
+        // products of two do not overflow, nor do the halves of any operand. A face far
+        // from all such points may have values up to 2^602, but all of one sign, and they
+        // are not multiplied.
         self.limit = exp2(480) / factor.max(z).max(1.0);
     }
 
     /// Whether every constant is in the range that the error analysis assumes:
     /// zero, or of a magnitude at which products neither overflow nor lose
-    /// more than `FLOOR` covers.
+    /// more than [`UNDERFLOW_ERROR`].
     fn in_range(&self) -> bool {
         let within =
             |v: f64, low: i32, high: i32| v == 0.0 || (v.abs() > exp2(low) && v.abs() < exp2(high));
@@ -418,9 +423,9 @@ impl Filter {
                 .all(|v| within(v, -200, 200))
     }
 
-    /// The finest unit such that points on its multiples, as far out as a few
-    /// times the frustum's size, have values of at most 25 bits: then the
-    /// values and the products of two are exact. `None` also where such products
+    /// The finest unit for which points on its multiples, up to a few times the
+    /// frustum's size away, have values of at most 25 bits: the values and the
+    /// products of two are then exact. `None` if there is none, or if such products
     /// could underflow.
     fn find_lattice(&self, shape: &Shape, slopes: &[Dd; 4]) -> Option<Lattice> {
         if self.limit == 0.0 || !slopes_exact(shape, slopes) {
@@ -472,7 +477,7 @@ fn dot<F: Lanes>(a: Vec3<f64>, c: Vec3<F>) -> F {
     c.x.splat(a.x) * c.x + c.x.splat(a.y) * c.y + c.x.splat(a.z) * c.z
 }
 
-/// Whether every number is in the range in which expansions are exact.
+/// Whether all numbers of a frustum are in the range in which expansions are exact.
 fn fits_expansions(pose: &Pose, shape: &Shape) -> bool {
     let near = shape.near();
     let other = match shape {
@@ -505,7 +510,7 @@ fn slopes(shape: &Shape) -> [Dd; 4] {
     }
 }
 
-/// Whether the rounded slopes are the slopes.
+/// Whether the rounded slopes are exact.
 fn slopes_exact(shape: &Shape, slopes: &[Dd; 4]) -> bool {
     let Shape::Finite { near, far } = shape else {
         return true;
@@ -526,5 +531,4 @@ impl Frustum {
 }
 
 #[cfg(test)]
-#[path = "filter_tests.rs"]
 mod tests;
