@@ -33,6 +33,7 @@
 use super::plain::{self, Found, InFrame};
 use super::predicates::{Predicates, Role, Span};
 use super::result::{Accuracy, Arithmetic, SegmentClip, StageCounts};
+use super::whole::{inside, outside};
 use super::{SegmentClipper, exact};
 use crate::frustum::{Face, FaceSet, Frustum, Layout, PlainFrustum};
 use crate::math::{NonFinite, Real, Segment, Vec3};
@@ -116,11 +117,11 @@ impl InFrame for Plain {
         let b = values::<T, L>(f, q);
         let first = [code(&a, out), code(&b, out)];
         if first[0] & first[1] != 0 {
-            return plain::outside();
+            return outside();
         }
         let mut touched = [code(&a, on), code(&b, on)];
         if first[0] | first[1] | touched[0] | touched[1] == 0 {
-            return plain::inside(segment);
+            return inside(segment);
         }
         let coplanar = touched[0] & touched[1];
         let d = q - p;
@@ -139,14 +140,14 @@ impl InFrame for Plain {
                 let v = values::<T, L>(f, d.times_plus(t[end], p));
                 let anew = code(&v, out);
                 if anew & first[1 - end] != 0 {
-                    return plain::outside();
+                    return outside();
                 }
                 code_now = anew & left;
                 touched[end] = code(&v, on) | 1 << i;
             }
         }
         if t[0] > t[1] {
-            return plain::outside();
+            return outside();
         }
         Found {
             t,

@@ -30,6 +30,7 @@
 use super::plain::{self, Found};
 use super::predicates::{Predicates, Role, Span};
 use super::result::{Accuracy, Arithmetic, SegmentClip, StageCounts};
+use super::whole::outside;
 use super::{SegmentClipper, exact};
 use crate::frustum::{Frustum, PlainFrustum};
 use crate::math::{NonFinite, Real, Segment};
@@ -88,11 +89,11 @@ pub(crate) fn clip<T: Real>(f: &PlainFrustum<T>, segment: &Segment<T>) -> Segmen
         let plane = &f.planes[face as usize];
         let (a, b) = (plane.value(segment.start), plane.value(segment.end));
         if !found.face_by_signs(face, a, b) {
-            return plain::outside();
+            return outside();
         }
     }
     if found.t[0] > found.t[1] {
-        return plain::outside();
+        return outside();
     }
     found.build(segment)
 }

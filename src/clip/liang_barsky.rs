@@ -32,6 +32,7 @@
 use super::plain::{self, Found, InFrame};
 use super::predicates::{Predicates, Role, Span};
 use super::result::{Accuracy, Arithmetic, SegmentClip, StageCounts};
+use super::whole::outside;
 use super::{SegmentClipper, exact};
 use crate::frustum::{Face, Frustum, Layout, PlainFrustum};
 use crate::math::{NonFinite, Real, Segment};
@@ -164,10 +165,10 @@ impl<S: Side> InFrame for Plain<S> {
         let q = f.to_frame(segment.end);
         let ([wp, fp], [wq, fq]) = (f.depths::<L>(p.z), f.depths::<L>(q.z));
         if !S::side(&mut found, Face::Near, wp, wq) {
-            return plain::outside();
+            return outside();
         }
         if L::FAR && !S::side(&mut found, Face::Far, fp, fq) {
-            return plain::outside();
+            return outside();
         }
         for (i, low, high, cp, cq) in [
             (0, Face::Left, Face::Right, p.x, q.x),
@@ -176,11 +177,11 @@ impl<S: Side> InFrame for Plain<S> {
             let [lp, hp] = f.sides::<L>(i, wp, cp);
             let [lq, hq] = f.sides::<L>(i, wq, cq);
             if !S::side(&mut found, low, lp, lq) || !S::side(&mut found, high, hp, hq) {
-                return plain::outside();
+                return outside();
             }
         }
         if found.t[0] > found.t[1] {
-            return plain::outside();
+            return outside();
         }
         found.build(segment)
     }

@@ -9,8 +9,10 @@ pub(crate) mod many;
 pub(crate) mod plain;
 mod predicates;
 mod result;
+mod rules;
 pub(crate) mod six_planes;
 pub(crate) mod vw;
+mod whole;
 
 pub use cohen_sutherland::CohenSutherland;
 pub use cyrus_beck::CyrusBeck;

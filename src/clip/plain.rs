@@ -7,7 +7,8 @@
 //! The sets hold the faces whose computed parameter equals the chosen one,
 //! and at an end that is not clipped those with a boundary value of zero.
 
-use super::result::{Class, Part, PartEnd, SegmentClip};
+use super::result::{Part, PartEnd, SegmentClip};
+use super::whole;
 use crate::frustum::{
     Face, FaceSet, Form, Frustum, General, Layout, Orthographic, PlainFrustum, Symmetric,
 };
@@ -170,7 +171,7 @@ impl<T: Real> Found<T> {
         let [t0, t1] = self.t;
         let clipped = self.clipped[0] | self.clipped[1];
         if !clipped && p == q {
-            return point(segment, self.coplanar);
+            return whole::point(segment, self.coplanar);
         }
         let touch = t0 == t1;
         // Both points are always computed: choosing afterwards costs less than
@@ -180,32 +181,19 @@ impl<T: Real> Found<T> {
         let last = choose(self.clipped[1], d.times_plus(t1, p), q);
         let both = self.faces[0].union(self.faces[1]);
         let [entry, exit] = if touch { [both, both] } else { self.faces };
-        let class = if touch {
-            Class::Touch
-        } else if !self.coplanar.is_empty() {
-            Class::Boundary
-        } else if clipped {
-            Class::Cross
-        } else {
-            Class::Inside
+        let end = |i: usize, point, faces: FaceSet| {
+            PartEnd::fast(
+                self.t[i],
+                point,
+                self.clipped[i],
+                faces.union(self.coplanar),
+            )
         };
         SegmentClip {
-            class,
+            class: whole::class(touch, !self.coplanar.is_empty(), clipped),
             part: Some(Part {
-                entry: PartEnd {
-                    t: t0,
-                    point: first,
-                    clipped: self.clipped[0],
-                    faces: entry.union(self.coplanar),
-                    inward: !self.clipped[0],
-                },
-                exit: PartEnd {
-                    t: t1,
-                    point: last,
-                    clipped: self.clipped[1],
-                    faces: exit.union(self.coplanar),
-                    inward: !self.clipped[1],
-                },
+                entry: end(0, first, entry),
+                exit: end(1, last, exit),
                 coplanar: self.coplanar,
             }),
         }
@@ -219,52 +207,6 @@ fn choose<T: Real>(condition: bool, a: Vec3<T>, b: Vec3<T>) -> Vec3<T> {
         if condition { a.y } else { b.y },
         if condition { a.z } else { b.z },
     )
-}
-
-/// Nothing of the segment. Not the constant, since copying that would copy
-/// its padding, too.
-#[inline(always)]
-pub(crate) fn outside<T>() -> SegmentClip<T> {
-    SegmentClip {
-        class: Class::Outside,
-        part: None,
-    }
-}
-
-/// All of the segment, touching no face.
-#[inline(always)]
-pub(crate) fn inside<T: Real>(segment: &Segment<T>) -> SegmentClip<T> {
-    whole(segment, Class::Inside, FaceSet::EMPTY)
-}
-
-/// A segment of zero length in the frustum, on these faces.
-#[cold]
-fn point<T: Real>(segment: &Segment<T>, faces: FaceSet) -> SegmentClip<T> {
-    let class = if faces.is_empty() {
-        Class::Inside
-    } else {
-        Class::Touch
-    };
-    whole(segment, class, faces)
-}
-
-#[inline(always)]
-fn whole<T: Real>(segment: &Segment<T>, class: Class, faces: FaceSet) -> SegmentClip<T> {
-    let end = |t, point| PartEnd {
-        t,
-        point,
-        clipped: false,
-        faces,
-        inward: true,
-    };
-    SegmentClip {
-        class,
-        part: Some(Part {
-            entry: end(T::ZERO, segment.start),
-            exit: end(T::ONE, segment.end),
-            coplanar: FaceSet::EMPTY,
-        }),
-    }
 }
 
 /// A plain algorithm over frame coordinates.

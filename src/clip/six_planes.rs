@@ -35,6 +35,7 @@
 use super::plain::{self, Found};
 use super::predicates::{Predicates, Role, Span};
 use super::result::{Accuracy, Arithmetic, SegmentClip, StageCounts};
+use super::whole::outside;
 use super::{SegmentClipper, exact};
 use crate::frustum::{Face, FaceSet, Frustum, PlainFrustum};
 use crate::math::{NonFinite, Real, Segment};
@@ -148,7 +149,7 @@ pub(crate) fn clip<T: Real>(f: &PlainFrustum<T>, segment: &Segment<T>) -> Segmen
         }
     }
     if !kept.any {
-        return plain::outside();
+        return outside();
     }
     Found {
         t: kept.t,

@@ -39,6 +39,7 @@
 
 use super::plain::{self, Found, InFrame, max, min};
 use super::result::{Accuracy, Arithmetic, SegmentClip, StageCounts};
+use super::whole::{inside, outside};
 use super::{SegmentClipper, exact, many};
 use crate::frustum::{Face, FaceSet, Frustum, Layout, PlainFrustum};
 use crate::math::{NonFinite, NonFiniteAt, Real, Segment};
@@ -133,18 +134,18 @@ impl InFrame for Plain {
         let [lq, rq] = f.sides::<L>(0, wq, q.x);
         let v = min(min(max(wp, wq), max(fp, fq)), min(max(lp, lq), max(rp, rq)));
         if v < zero {
-            return plain::outside();
+            return outside();
         }
         let [bp, tp] = f.sides::<L>(2, wp, p.y);
         let [bq, tq] = f.sides::<L>(2, wq, q.y);
         let w = min(max(bp, bq), max(tp, tq));
         if w < zero {
-            return plain::outside();
+            return outside();
         }
         let least_p = min(min(min(wp, fp), min(lp, rp)), min(bp, tp));
         let least_q = min(min(min(wq, fq), min(lq, rq)), min(bq, tq));
         if min(least_p, least_q) > zero {
-            return plain::inside(segment);
+            return inside(segment);
         }
         let values = [[wp, fp, lp, rp, bp, tp], [wq, fq, lq, rq, bq, tq]];
         let coplanar = if min(v, w) > zero {
@@ -191,7 +192,7 @@ fn cross<T: Real, L: Layout>(
         min(min(l[4], l[5]), T::ONE),
     );
     if t0 > t1 {
-        return plain::outside();
+        return outside();
     }
     let (mut entered, mut left) = (0_u8, 0_u8);
     for i in 0..6 {

@@ -21,6 +21,7 @@
 use super::decide::{At, Decision};
 use super::inward;
 use super::staged::Staged;
+use crate::clip::rules::site::{Step, end_is_smaller, is_from_end};
 use crate::clip::{Accuracy, Part, PartEnd, SegmentClip};
 use crate::exact::Number;
 use crate::exact::double_double::Dd;
@@ -118,75 +119,60 @@ fn crossing<T: Real>(
     }
 }
 
-/// Where on the segment, seen from the end with the smaller boundary value.
-pub(super) struct Step {
-    /// The end, by number.
-    from: usize,
-    tau: f64,
+/// From the magnitudes at start and end.
+#[inline(always)]
+fn step_from(a: f64, b: f64, segment: &Segment<f64>) -> Step<f64> {
+    let from_end = is_from_end::<false, _>(a, b, || is_smaller(segment));
+    Step::new(a, b, from_end)
 }
 
-impl Step {
-    /// From the magnitudes at start and end.
-    #[inline(always)]
-    pub(super) fn new(a: f64, b: f64, segment: &Segment<f64>) -> Self {
-        // A look-up by the result, not a branch on it: it cannot be predicted.
-        let mut from = usize::from(b < a);
-        if a == b {
-            from = lesser(segment);
-        }
-        Step {
-            from,
-            tau: [a, b][from] / (a + b),
-        }
-    }
-}
-
-/// The lexicographically smaller end, by number.
+/// Whether the end is lexicographically smaller than the start.
 #[cold]
-fn lesser(segment: &Segment<f64>) -> usize {
-    usize::from(segment.start.to_array() > segment.end.to_array())
+fn is_smaller(segment: &Segment<f64>) -> bool {
+    end_is_smaller(segment.start, segment.end)
 }
 
 /// The step to a crossed face. The way its boundary values are found depends
 /// on the two points and the face alone, not on which point comes first nor on
 /// the algorithm: rounded values where they are exact, double-double where the
 /// filter is certain, else exact.
-fn step(staged: &mut Staged<'_>, face: Face) -> Step {
+fn step(staged: &mut Staged<'_>, face: Face) -> Step<f64> {
     if staged.lattice {
         let [p, q] = [0, 1].map(|i| staged.values[i].of(face as usize).abs());
-        return Step::new(p, q, &staged.segment);
+        return step_from(p, q, &staged.segment);
     }
     if staged.certain(face) {
         let Segment { start, end } = staged.segment;
         let precise = &staged.filter().precise;
         let value = |p| precise.magnitudes(Single, [face as usize], [p]);
-        return Step::new(value(start), value(end), &staged.segment);
+        return step_from(value(start), value(end), &staged.segment);
     }
     // Near and far of the identity pose are one subtraction, the same bits as
     // in double-double, unless they overflow.
     let [p, q] = [0, 1].map(|i| staged.values[i].of(face as usize).abs());
     let depth = matches!(face, Face::Near | Face::Far) && staged.filter().identity;
     if depth && p + q < f64::MAX {
-        return Step::new(p, q, &staged.segment);
+        return step_from(p, q, &staged.segment);
     }
     exact_step(staged, face)
 }
 
 #[cold]
-fn exact_step(staged: &mut Staged<'_>, face: Face) -> Step {
+fn exact_step(staged: &mut Staged<'_>, face: Face) -> Step<f64> {
     if let Some([a, b]) = staged.expansions(face) {
-        return Step::new(a.estimate().abs(), b.estimate().abs(), &staged.segment);
+        return step_from(a.estimate().abs(), b.estimate().abs(), &staged.segment);
     }
     let [a, b] = staged.integers(face).map(Dyadic::abs);
     let order = (&a - &b).sign();
-    let from = match order {
-        Ordering::Less => 0,
-        Ordering::Equal => lesser(&staged.segment),
-        Ordering::Greater => 1,
+    let from_end = match order {
+        Ordering::Less => false,
+        Ordering::Equal => is_smaller(&staged.segment),
+        Ordering::Greater => true,
     };
+    let nearer = if from_end { &b } else { &a };
     Step {
-        from,
-        tau: [&a, &b][from].round_quotient(&(&a + &b)),
+        from_end,
+        tau: nearer.round_quotient(&(&a + &b)),
     }
 }
 
@@ -197,25 +183,18 @@ fn fast<T: Real>(staged: &mut Staged<'_>, face: Face, faces: FaceSet) -> (T, Vec
 
 /// Parameter and point of a step.
 #[inline(always)]
-pub(super) fn place<T: Real>(
+fn place<T: Real>(
     filter: &Filter,
     segment: &Segment<f64>,
-    Step { from, tau }: Step,
+    step: Step<f64>,
     faces: FaceSet,
 ) -> (T, Vec3<T>) {
     let Segment { start, end } = *segment;
-    let (base, tau, t) = if from == 0 {
-        (start, tau, tau)
-    } else {
-        (end, -tau, 1.0 - tau)
-    };
-    let difference = end - start;
-    let mut point = base + difference * tau;
-    if !(point.x + point.y + point.z).is_finite() {
-        point = huge(segment, base, tau);
+    let [x, y, z] = [0, 1, 2].map(|k| step.coordinate(start[k], end[k]));
+    let mut point = Vec3::new(x, y, z);
+    if !(x + y + z).is_finite() {
+        point = huge(segment, step);
     }
-    // The sign of a zero must not depend on the order of the ends.
-    point = point + Vec3::default();
     if filter.identity {
         // The exact hit has exactly this coordinate.
         if faces.contains(Face::Near) {
@@ -224,14 +203,16 @@ pub(super) fn place<T: Real>(
             point.z = filter.far;
         }
     }
-    (T::from_f64(t), Vec3::from_f64(point))
+    (T::from_f64(step.parameter()), Vec3::from_f64(point))
 }
 
 /// Where the difference of the ends overflows, or the sum of the coordinates.
 #[cold]
-fn huge(segment: &Segment<f64>, base: Vec3<f64>, tau: f64) -> Vec3<f64> {
-    let halves = segment.end * 0.5 - segment.start * 0.5;
-    (base * 0.5 + halves * tau) * 2.0
+fn huge(segment: &Segment<f64>, step: Step<f64>) -> Vec3<f64> {
+    let Segment { start, end } = *segment;
+    let nearer = if step.from_end { end } else { start };
+    let half = end * 0.5 - start * 0.5;
+    (nearer * 0.5 + half * step.signed()) * 2.0 + Vec3::default()
 }
 
 /// Correctly rounded parameter and point.

@@ -1,12 +1,13 @@
 //! Four segments side by side.
 
+use crate::clip::rules::compare::{Compare, MinMax};
 use crate::exact::float::{Lanes, Width, split};
 use crate::frustum::Term;
 use crate::math::{Real, Segment, Vec3};
 use fearless_simd::prelude::*;
-use fearless_simd::{Level, f32x8, f64x4, mask64x4};
+use fearless_simd::{Level, f32x8, f32x16, f64x4, mask64x4};
 
-/// Four numbers, at a vector width.
+/// Makes registers of four numbers, at a vector width.
 #[derive(Clone, Copy)]
 pub(super) struct Quad<S>(pub(super) S);
 
@@ -20,7 +21,7 @@ impl<S: Simd> Width<4> for Quad<S> {
 }
 
 impl<S: Simd> Quad<S> {
-    /// The same number four times.
+    /// The same number in each lane.
     #[inline(always)]
     pub(super) fn splat(self, value: f64) -> f64x4<S> {
         value.simd_into(self.0)
@@ -89,5 +90,58 @@ impl<S: Simd> Lanes for f64x4<S> {
         }
         let (bh, bl) = split(b);
         al * bl - (((p - ah * bh) - al * bh) - ah * bl)
+    }
+}
+
+/// For every register that segments are clipped in.
+macro_rules! min_max {
+    ($($register:ident)*) => {$(
+        impl<S: Simd> MinMax for $register<S> {
+            #[inline(always)]
+            fn lesser(self, other: Self) -> Self {
+                SimdBase::min(self, other)
+            }
+
+            #[inline(always)]
+            fn greater(self, other: Self) -> Self {
+                SimdBase::max(self, other)
+            }
+
+            #[inline(always)]
+            fn magnitude(self) -> Self {
+                SimdBase::abs(self)
+            }
+        }
+    )*};
+}
+
+min_max!(f32x8 f32x16 f64x4);
+
+impl<S: Simd> Compare for f64x4<S> {
+    type Mask = mask64x4<S>;
+
+    #[inline(always)]
+    fn is_less(self, other: Self) -> mask64x4<S> {
+        self.simd_lt(other)
+    }
+
+    #[inline(always)]
+    fn is_equal(self, other: Self) -> mask64x4<S> {
+        self.simd_eq(other)
+    }
+
+    #[inline(always)]
+    fn any(mask: mask64x4<S>) -> bool {
+        mask.any_true()
+    }
+
+    #[inline(always)]
+    fn select(mask: mask64x4<S>, set: Self, clear: Self) -> Self {
+        mask.select(set, clear)
+    }
+
+    #[inline(always)]
+    fn tagged(self, tag: Self) -> Self {
+        f64x4::from_bits((self.to_bits() & !7) | tag.to_bits())
     }
 }

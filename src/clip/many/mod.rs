@@ -172,7 +172,7 @@ fn in_chunks<T: Real>(
     clips.reserve(segments.len());
     for segments in segments.chunks(CHUNK) {
         let done = clips.len();
-        clips.extend(segments.iter().map(|_| super::plain::outside()));
+        clips.extend(segments.iter().map(|_| super::whole::outside()));
         let chunk = Chunk {
             frustum,
             segments,

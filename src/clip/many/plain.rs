@@ -1,10 +1,13 @@
 //! Plain V/W, a register of segments at a time: the steps of `clip/vw.rs` in the
-//! same order. What is rare there goes to the unsure: a value of zero, and
+//! same order. What is rare there goes to the uncertain: a value of zero, and
 //! numbers so large that something may overflow.
 
 use super::Chunk;
 use super::queue::{CHUNK, Queues};
-use crate::clip::{Class, Part, PartEnd, SegmentClip, plain, vw};
+use crate::clip::rules::compare::MinMax;
+use crate::clip::rules::triage::Extremes;
+use crate::clip::whole::{class, inside, outside};
+use crate::clip::{Part, PartEnd, SegmentClip, vw};
 use crate::frustum::{FaceSet, Form, General, Layout, PlainFrustum, Symmetric, Term};
 use crate::math::{NonFiniteAt, Real, Segment, Vec3};
 use fearless_simd::prelude::*;
@@ -44,7 +47,7 @@ fn clip<S, T, V, const N: usize>(
 where
     S: Simd,
     T: Real,
-    V: SimdFloat<S, Element = T, Array = [T; N]> + Term,
+    V: SimdFloat<S, Element = T, Array = [T; N]> + Term + MinMax,
 {
     let mut run = Run {
         simd,
@@ -133,7 +136,7 @@ impl<S, T, V> Run<'_, S, T, V>
 where
     S: Simd,
     T: Real,
-    V: Term,
+    V: Term + MinMax,
 {
     #[inline(always)]
     fn clip<L: Layout, const N: usize>(&mut self) -> Result<(), NonFiniteAt>
@@ -152,9 +155,9 @@ where
         self.cross::<L, N>();
         for &item in self.queues.inside.items() {
             let index = item as usize;
-            self.chunk.clips[index] = plain::inside(&self.chunk.segments[index]);
+            self.chunk.clips[index] = inside(&self.chunk.segments[index]);
         }
-        self.unsure()
+        self.uncertain()
     }
 
     /// The first `count` of a group count.
@@ -171,27 +174,23 @@ where
         let q: Vec3<V> = points(self.simd, group.map(|s| s.end));
         let a = values::<S, T, V, L>(self.simd, self.frustum, p);
         let b = values::<S, T, V, L>(self.simd, self.frustum, q);
-        let mut greatest = a[0].max(b[0]);
-        let mut least = a[0].min(b[0]);
-        let mut nearest = a[0].abs().min(b[0].abs());
+        let mut extremes = Extremes::new(a[0], b[0]);
         for (a, b) in a.into_iter().zip(b).skip(1) {
-            greatest = greatest.min(a.max(b));
-            least = least.min(a.min(b));
-            nearest = nearest.min(a.abs().min(b.abs()));
+            extremes.add(a, b);
         }
         let covered = (size::<S, V>(p) + size::<S, V>(q)).simd_lt(self.frustum.limit);
-        let outside = greatest.simd_lt(T::ZERO) & covered;
-        let inside = least.simd_gt(T::ZERO) & covered;
-        let certain = nearest.simd_gt(T::ZERO) & covered;
+        let outside = extremes.greatest.simd_lt(T::ZERO) & covered;
+        let inside = extremes.least.simd_gt(T::ZERO) & covered;
+        let certain = extremes.nearest.simd_gt(T::ZERO) & covered;
         let present = u64::MAX >> (64 - count);
         let crossing = (certain & !outside & !inside).to_bitmask() & present;
-        let unsure = !(certain | outside).to_bitmask() & present;
+        let uncertain = !(certain | outside).to_bitmask() & present;
         let items = std::array::from_fn::<u32, N, _>(|j| (base + j) as u32);
         self.queues
             .inside
             .append(items, inside.to_bitmask() & present);
         self.queues.crossing.append(items, crossing);
-        self.queues.unsure.append(items, unsure);
+        self.queues.uncertain.append(items, uncertain);
     }
 
     /// What has ends on both sides of some faces, and on none.
@@ -203,7 +202,7 @@ where
         let Chunk {
             segments, clips, ..
         } = &mut self.chunk;
-        let mut nowhere = plain::outside();
+        let mut nowhere = outside();
         for (items, _) in self.queues.crossing.groups::<N>() {
             let group = items.map(|i| &segments[i as usize % CHUNK]);
             let p: Vec3<V> = points(self.simd, group.map(|s| s.start));
@@ -224,8 +223,13 @@ where
     }
 
     /// One by one.
-    fn unsure(&mut self) -> Result<(), NonFiniteAt> {
-        let items = self.queues.unsure.items().iter().map(|&item| item as usize);
+    fn uncertain(&mut self) -> Result<(), NonFiniteAt> {
+        let items = self
+            .queues
+            .uncertain
+            .items()
+            .iter()
+            .map(|&item| item as usize);
         self.chunk.clip_singly(items, vw::clip_plain)
     }
 }
@@ -310,7 +314,7 @@ impl<T: Real, const N: usize> Crossings<T, N> {
         let both = sets[0].union(sets[1]);
         let [entry, exit] = if touch { [both, both] } else { sets };
         SegmentClip {
-            class: if touch { Class::Touch } else { Class::Cross },
+            class: class(touch, false, true),
             part: Some(Part {
                 entry: self.end(0, j, entry),
                 exit: self.end(1, j, exit),
@@ -329,12 +333,7 @@ impl<T: Real, const N: usize> Crossings<T, N> {
     fn end(&self, end: usize, j: usize, faces: FaceSet) -> PartEnd<T> {
         let clipped = self.clipped[end] >> j & 1 != 0;
         let [x, y, z] = &self.points[end];
-        PartEnd {
-            t: self.t[end][j],
-            point: Vec3::new(x[j], y[j], z[j]),
-            clipped,
-            faces,
-            inward: !clipped,
-        }
+        let point = Vec3::new(x[j], y[j], z[j]);
+        PartEnd::fast(self.t[end][j], point, clipped, faces)
     }
 }

@@ -64,7 +64,7 @@ pub(super) struct Queues {
     /// On the lattice, not settled by certain signs.
     pub(super) lattice: Queue,
     /// To be clipped alone.
-    pub(super) unsure: Queue,
+    pub(super) uncertain: Queue,
 }
 
 impl Queues {
@@ -74,7 +74,7 @@ impl Queues {
             crossing: Queue::new(),
             crossed: Queue::new(),
             lattice: Queue::new(),
-            unsure: Queue::new(),
+            uncertain: Queue::new(),
         }
     }
 
@@ -84,7 +84,7 @@ impl Queues {
             &mut self.crossing,
             &mut self.crossed,
             &mut self.lattice,
-            &mut self.unsure,
+            &mut self.uncertain,
         ] {
             queue.len = 0;
         }
