@@ -1,6 +1,6 @@
 //! Exact V/W, four segments at a time: the rules of `clip/rules/`, with a face a register.
 
-use super::Chunk;
+use super::Block;
 use super::lanes::{Quad, ends};
 use super::lattice;
 use super::points::Parts;
@@ -18,10 +18,10 @@ use crate::math::{NonFiniteAt, Real, Segment, Vec3};
 use fearless_simd::prelude::*;
 use fearless_simd::{f64x4, mask64x4, u64x4};
 
-/// A chunk on its way.
+/// A block on its way.
 pub(super) struct Run<'a, S, T> {
     pub(super) quad: Quad<S>,
-    pub(super) chunk: Chunk<'a, T>,
+    pub(super) block: Block<'a, T>,
     pub(super) accuracy: Accuracy,
     pub(super) queues: &'a mut Queues,
     pub(super) counts: &'a mut StageCounts,
@@ -127,7 +127,7 @@ fn on_grid<S: Simd>(round: f64, v: Vec3<f64x4<S>>) -> mask64x4<S> {
 }
 
 impl<S: Simd, T: Real> Run<'_, S, T> {
-    /// Clips the chunk.
+    /// Clips the block.
     #[inline(always)]
     pub(super) fn clip<L: Layout>(&mut self) -> Result<(), NonFiniteAt> {
         self.queues.clear();
@@ -139,7 +139,7 @@ impl<S: Simd, T: Real> Run<'_, S, T> {
         }
         for &item in self.queues.inside.items() {
             let index = item as usize;
-            self.chunk.clips[index] = inside(&self.chunk.segments[index]);
+            self.block.clips[index] = inside(&self.block.segments[index]);
         }
         self.uncertain()
     }
@@ -147,7 +147,7 @@ impl<S: Simd, T: Real> Run<'_, S, T> {
     /// All segments, four at a time; the last group is filled up with its last one.
     #[inline(always)]
     fn triage<L: Layout>(&mut self) {
-        let (groups, rest) = self.chunk.segments.as_chunks::<4>();
+        let (groups, rest) = self.block.segments.as_chunks::<4>();
         for (k, group) in groups.iter().enumerate() {
             self.triage_four::<L>(group.each_ref(), 4 * k, 0xf);
         }
@@ -160,7 +160,7 @@ impl<S: Simd, T: Real> Run<'_, S, T> {
     /// `present` has the bits of the segments that are there.
     #[inline(always)]
     fn triage_four<L: Layout>(&mut self, group: [&Segment<T>; 4], base: usize, present: u64) {
-        let filter = self.chunk.frustum.filter();
+        let filter = self.block.frustum.filter();
         let [p, q] = ends(group);
         let (p, q) = (self.quad.points(p), self.quad.points(q));
         let values = Values::new::<L>(filter, p, q);
@@ -195,11 +195,11 @@ impl<S: Simd, T: Real> Run<'_, S, T> {
         let Queues {
             lattice, uncertain, ..
         } = &mut *self.queues;
-        let Chunk {
+        let Block {
             frustum,
             segments,
             clips,
-        } = &mut self.chunk;
+        } = &mut self.block;
         let filter = frustum.filter();
         let mut nowhere = outside();
         for (items, count) in lattice.groups::<4>() {
@@ -232,9 +232,9 @@ impl<S: Simd, T: Real> Run<'_, S, T> {
             uncertain,
             ..
         } = &mut *self.queues;
-        let filter = self.chunk.frustum.filter();
+        let filter = self.block.frustum.filter();
         for (items, count) in crossing.groups::<4>() {
-            let group = items.map(|i| &self.chunk.segments[i as usize]);
+            let group = items.map(|i| &self.block.segments[i as usize]);
             let [p, q] = ends(group);
             let (p, q) = (self.quad.points(p), self.quad.points(q));
             let found = Values::new::<L>(filter, p, q).certify::<L>(self.quad);
@@ -254,14 +254,14 @@ impl<S: Simd, T: Real> Run<'_, S, T> {
 
     #[inline(always)]
     fn construct(&mut self) {
-        let filter = self.chunk.frustum.filter();
+        let filter = self.block.frustum.filter();
         for (items, _) in self.queues.crossed.groups::<4>() {
             let items = items.map(Crossed);
-            let group = items.map(|c| &self.chunk.segments[c.item()]);
+            let group = items.map(|c| &self.block.segments[c.item()]);
             let parts = Parts::new(self.quad, filter, items, group);
             // The last group's repeated items have the same clips.
             for (j, item) in items.into_iter().enumerate() {
-                self.chunk.clips[item.item()] = parts.clip(item, j);
+                self.block.clips[item.item()] = parts.clip(item, j);
             }
         }
     }
@@ -273,7 +273,7 @@ impl<S: Simd, T: Real> Run<'_, S, T> {
         let items = items.map(|&item| item as usize);
         // With `Fast`, triage and certificate have failed already: exact predicates are next.
         let is_tried = self.accuracy == Accuracy::Fast;
-        self.chunk
+        self.block
             .clip_singly(items, |frustum, segment| match is_tried {
                 true => exact::clip(frustum, segment, self.accuracy, self.counts, |s| {
                     exact::vw::span(s)

@@ -2,7 +2,7 @@
 //!
 //! # Idea
 //! ```text
-//! for each chunk of segments:
+//! for each block of segments:
 //!     all are outside, until something else is known
 //!     triage    four at a time: the boundary values at both ends, and what their
 //!               signs prove; the numbers of the rest go to queues: inside,
@@ -46,16 +46,16 @@ use crate::frustum::{Form, Frustum, General, PlainFrustum, Symmetric};
 use crate::math::{NonFinite, NonFiniteAt, PerReal, Real, Segment};
 use crate::simd::at_width;
 use fearless_simd::{Level, Simd};
-use queue::{CHUNK, Queues};
+use queue::{BLOCK, Queues};
 
-/// Segments of a chunk, and where their clips go: as many, all outside.
-struct Chunk<'a, T> {
+/// Segments of a block, and where their clips go: as many, all outside.
+struct Block<'a, T> {
     frustum: &'a Frustum,
     segments: &'a [Segment<T>],
     clips: &'a mut [SegmentClip<T>],
 }
 
-impl<T: Real> Chunk<'_, T> {
+impl<T: Real> Block<'_, T> {
     /// Clips some of the segments one by one, up to the first that is not finite.
     fn clip_singly(
         &mut self,
@@ -81,8 +81,8 @@ pub(crate) fn clip_exact<T: Real>(
 ) -> Result<(), NonFiniteAt> {
     let mut queues = Queues::new();
     let kernels = T::pick(&Both);
-    in_chunks(frustum, segments, clips, |chunk| {
-        (kernels.exact)(level, chunk, accuracy, &mut queues, counts)
+    in_blocks(frustum, segments, clips, |block| {
+        (kernels.exact)(level, block, accuracy, &mut queues, counts)
     })
 }
 
@@ -95,12 +95,12 @@ pub(crate) fn clip_plain<T: Real>(
 ) -> Result<(), NonFiniteAt> {
     let mut queues = Queues::new();
     let (kernels, plain) = (T::pick(&Both), frustum.plain());
-    in_chunks(frustum, segments, clips, |chunk| {
-        (kernels.plain)(level, chunk, plain, &mut queues)
+    in_blocks(frustum, segments, clips, |block| {
+        (kernels.plain)(level, block, plain, &mut queues)
     })
 }
 
-/// What clips a chunk of one scalar type. Functions that are not generic are
+/// What clips a block of one scalar type. Functions that are not generic are
 /// compiled once, here, and not in every crate that clips.
 struct Kernels<T: Real> {
     exact: ExactKernel<T>,
@@ -108,10 +108,10 @@ struct Kernels<T: Real> {
 }
 
 type ExactKernel<T> =
-    fn(Level, Chunk<'_, T>, Accuracy, &mut Queues, &mut StageCounts) -> Result<(), NonFiniteAt>;
+    fn(Level, Block<'_, T>, Accuracy, &mut Queues, &mut StageCounts) -> Result<(), NonFiniteAt>;
 
 type PlainKernel<T> =
-    fn(Level, Chunk<'_, T>, &PlainFrustum<T>, &mut Queues) -> Result<(), NonFiniteAt>;
+    fn(Level, Block<'_, T>, &PlainFrustum<T>, &mut Queues) -> Result<(), NonFiniteAt>;
 
 /// The kernels of both scalar types.
 struct Both;
@@ -121,15 +121,15 @@ impl PerReal for Both {
 
     fn single(&self) -> &Kernels<f32> {
         &Kernels {
-            exact: exact_singles,
-            plain: plain_singles,
+            exact: exact_f32,
+            plain: plain_f32,
         }
     }
 
     fn double(&self) -> &Kernels<f64> {
         &Kernels {
-            exact: exact_doubles,
-            plain: plain_doubles,
+            exact: exact_f64,
+            plain: plain_f64,
         }
     }
 }
@@ -138,47 +138,47 @@ macro_rules! kernels {
     ($($t:ident $exact:ident $plain:ident $registers:ident;)*) => {$(
         fn $exact(
             level: Level,
-            chunk: Chunk<'_, $t>,
+            block: Block<'_, $t>,
             accuracy: Accuracy,
             queues: &mut Queues,
             counts: &mut StageCounts,
         ) -> Result<(), NonFiniteAt> {
-            at_width!(level, simd => exact_chunk(simd, chunk, accuracy, queues, counts))
+            at_width!(level, simd => exact_block(simd, block, accuracy, queues, counts))
         }
 
         fn $plain(
             level: Level,
-            chunk: Chunk<'_, $t>,
+            block: Block<'_, $t>,
             frustum: &PlainFrustum<$t>,
             queues: &mut Queues,
         ) -> Result<(), NonFiniteAt> {
-            at_width!(level, simd => plain::$registers(simd, chunk, frustum, queues))
+            at_width!(level, simd => plain::$registers(simd, block, frustum, queues))
         }
     )*};
 }
 
 kernels! {
-    f32 exact_singles plain_singles singles;
-    f64 exact_doubles plain_doubles doubles;
+    f32 exact_f32 plain_f32 clip_f32;
+    f64 exact_f64 plain_f64 clip_f64;
 }
 
-fn in_chunks<T: Real>(
+fn in_blocks<T: Real>(
     frustum: &Frustum,
     segments: &[Segment<T>],
     clips: &mut Vec<SegmentClip<T>>,
-    mut clip: impl FnMut(Chunk<'_, T>) -> Result<(), NonFiniteAt>,
+    mut clip: impl FnMut(Block<'_, T>) -> Result<(), NonFiniteAt>,
 ) -> Result<(), NonFiniteAt> {
     clips.clear();
     clips.reserve(segments.len());
-    for segments in segments.chunks(CHUNK) {
+    for segments in segments.chunks(BLOCK) {
         let done = clips.len();
         clips.extend(segments.iter().map(|_| super::whole::outside()));
-        let chunk = Chunk {
+        let block = Block {
             frustum,
             segments,
             clips: &mut clips[done..],
         };
-        if let Err(mut error) = clip(chunk) {
+        if let Err(mut error) = clip(block) {
             clips.clear();
             error.index += done;
             return Err(error);
@@ -188,21 +188,21 @@ fn in_chunks<T: Real>(
 }
 
 #[inline(always)]
-fn exact_chunk<S: Simd, T: Real>(
+fn exact_block<S: Simd, T: Real>(
     simd: S,
-    chunk: Chunk<'_, T>,
+    block: Block<'_, T>,
     accuracy: Accuracy,
     queues: &mut Queues,
     counts: &mut StageCounts,
 ) -> Result<(), NonFiniteAt> {
     let mut run = certified::Run {
         quad: lanes::Quad(simd),
-        chunk,
+        block,
         accuracy,
         queues,
         counts,
     };
-    match run.chunk.frustum.filter().form {
+    match run.block.frustum.filter().form {
         Form::Symmetric => run.clip::<Symmetric<true>>(),
         Form::General | Form::Orthographic => run.clip::<General<true>>(),
         Form::InfiniteSymmetric | Form::Infinite => run.clip::<General<false>>(),

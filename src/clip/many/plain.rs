@@ -2,8 +2,8 @@
 //! same order. What is rare there goes to the uncertain: a value of zero, and
 //! numbers so large that something may overflow.
 
-use super::Chunk;
-use super::queue::{CHUNK, Queues};
+use super::Block;
+use super::queue::{BLOCK, Queues};
 use crate::clip::rules::compare::MinMax;
 use crate::clip::rules::triage::Extremes;
 use crate::clip::whole::{class, inside, outside};
@@ -14,33 +14,33 @@ use fearless_simd::prelude::*;
 use fearless_simd::{f32x8, f64x4};
 use std::marker::PhantomData;
 
-/// Clips a chunk, eight segments at a time.
+/// Clips a block, eight segments at a time.
 #[inline(always)]
-pub(super) fn singles<S: Simd>(
+pub(super) fn clip_f32<S: Simd>(
     simd: S,
-    chunk: Chunk<'_, f32>,
+    block: Block<'_, f32>,
     frustum: &PlainFrustum<f32>,
     queues: &mut Queues,
 ) -> Result<(), NonFiniteAt> {
-    clip::<S, f32, f32x8<S>, 8>(simd, chunk, frustum, queues)
+    clip::<S, f32, f32x8<S>, 8>(simd, block, frustum, queues)
 }
 
-/// Clips a chunk, four segments at a time.
+/// Clips a block, four segments at a time.
 #[inline(always)]
-pub(super) fn doubles<S: Simd>(
+pub(super) fn clip_f64<S: Simd>(
     simd: S,
-    chunk: Chunk<'_, f64>,
+    block: Block<'_, f64>,
     frustum: &PlainFrustum<f64>,
     queues: &mut Queues,
 ) -> Result<(), NonFiniteAt> {
-    clip::<S, f64, f64x4<S>, 4>(simd, chunk, frustum, queues)
+    clip::<S, f64, f64x4<S>, 4>(simd, block, frustum, queues)
 }
 
-/// Clips a chunk, N segments at a time.
+/// Clips a block, N segments at a time.
 #[inline(always)]
 fn clip<S, T, V, const N: usize>(
     simd: S,
-    chunk: Chunk<'_, T>,
+    block: Block<'_, T>,
     frustum: &PlainFrustum<T>,
     queues: &mut Queues,
 ) -> Result<(), NonFiniteAt>
@@ -51,7 +51,7 @@ where
 {
     let mut run = Run {
         simd,
-        chunk,
+        block,
         frustum,
         queues,
         lanes: PhantomData::<V>,
@@ -63,10 +63,10 @@ where
     }
 }
 
-/// A chunk on its way.
+/// A block on its way.
 struct Run<'a, S, T, V> {
     simd: S,
-    chunk: Chunk<'a, T>,
+    block: Block<'a, T>,
     frustum: &'a PlainFrustum<T>,
     queues: &'a mut Queues,
     lanes: PhantomData<V>,
@@ -144,7 +144,7 @@ where
         V: SimdFloat<S, Element = T, Array = [T; N]>,
     {
         self.queues.clear();
-        let (groups, rest) = self.chunk.segments.as_chunks::<N>();
+        let (groups, rest) = self.block.segments.as_chunks::<N>();
         for (k, group) in groups.iter().enumerate() {
             self.triage::<L, N>(group.each_ref(), N * k, N);
         }
@@ -155,7 +155,7 @@ where
         self.cross::<L, N>();
         for &item in self.queues.inside.items() {
             let index = item as usize;
-            self.chunk.clips[index] = inside(&self.chunk.segments[index]);
+            self.block.clips[index] = inside(&self.block.segments[index]);
         }
         self.uncertain()
     }
@@ -199,12 +199,12 @@ where
     where
         V: SimdFloat<S, Element = T, Array = [T; N]>,
     {
-        let Chunk {
+        let Block {
             segments, clips, ..
-        } = &mut self.chunk;
+        } = &mut self.block;
         let mut nowhere = outside();
         for (items, _) in self.queues.crossing.groups::<N>() {
-            let group = items.map(|i| &segments[i as usize % CHUNK]);
+            let group = items.map(|i| &segments[i as usize % BLOCK]);
             let p: Vec3<V> = points(self.simd, group.map(|s| s.start));
             let q: Vec3<V> = points(self.simd, group.map(|s| s.end));
             let found = crossings::<S, T, V, L, N>(self.simd, self.frustum, p, q);
@@ -230,7 +230,7 @@ where
             .items()
             .iter()
             .map(|&item| item as usize);
-        self.chunk.clip_singly(items, vw::clip_plain)
+        self.block.clip_singly(items, vw::clip_plain)
     }
 }
 

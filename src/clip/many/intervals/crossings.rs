@@ -12,12 +12,14 @@
 //! # One difference for near and far
 //! Their values rise and fall together: one of them is entered, the other left. The difference of
 //! near's values stands for both, so that far's parameter is off by 7.2 u S + 4.2 u |d| over it
-//! (`proofs/half_space.gappa`), of the 8 of each that a threshold has (`planes.rs`). So it is on the
+//! (`proofs/half_space.gappa`), of the 8 of each that a threshold has (`frustum.rs`). So it is on the
 //! right side, too: where far is met both its values are beyond their threshold. And
 //! the difference is off by less than a quarter of that, so that it is not less than the
 //! larger of far's values, to which the smaller one adds.
 
-use super::planes::Planes;
+use super::frustum_lanes::FrustumLanes;
+use crate::clip::rules::certificate::{Earliest, Latest};
+use crate::clip::rules::compare::MinMax;
 use crate::math::Real;
 use fearless_simd::prelude::*;
 
@@ -26,8 +28,8 @@ type Mask<S, V> = <V as SimdBase<S>>::Mask;
 
 /// Where each of a register of segments is cut.
 pub(super) struct Crossings<S: Simd, V: SimdFloat<S>> {
-    /// The face, by number, at which a segment enters last, and the one at which it leaves first;
-    /// of one that does not, some face.
+    /// The index of the face at which a segment enters last, and of the one at which it leaves
+    /// first; any index if it does not.
     pub(super) faces: [V::Bits; 2],
     /// Whether it does.
     pub(super) cut: [Mask<S, V>; 2],
@@ -37,40 +39,6 @@ pub(super) struct Crossings<S: Simd, V: SimdFloat<S>> {
     pub(super) certain: Mask<S, V>,
     /// The size of its coordinates, as [`Size::sum`].
     pub(super) size: V,
-}
-
-/// The latest of some parameters, and what comes before it.
-struct Latest<V> {
-    first: V,
-    second: V,
-}
-
-impl<V: Copy> Latest<V> {
-    #[inline(always)]
-    fn add<S: Simd>(&mut self, t: V)
-    where
-        V: SimdFloat<S>,
-    {
-        self.second = self.second.max(self.first.min(t));
-        self.first = self.first.max(t);
-    }
-}
-
-/// The earliest of some parameters, and what comes after it.
-struct Earliest<V> {
-    first: V,
-    second: V,
-}
-
-impl<V: Copy> Earliest<V> {
-    #[inline(always)]
-    fn add<S: Simd>(&mut self, t: V)
-    where
-        V: SimdFloat<S>,
-    {
-        self.second = self.second.min(self.first.max(t));
-        self.first = self.first.min(t);
-    }
 }
 
 /// The smallest magnitudes that matter.
@@ -105,21 +73,19 @@ impl<V: Copy> Smallest<V> {
     }
 }
 
-impl<S: Simd, V: SimdFloat<S, Element: Real>> Crossings<S, V> {
+impl<S: Simd, V: SimdFloat<S, Element: Real> + MinMax> Crossings<S, V> {
     #[inline(always)]
-    pub(super) fn new(planes: &Planes<S, V>, ends: &[[V; 3]; 2]) -> Self {
-        let (zero, one) = (planes.zero, planes.one);
+    pub(super) fn new(frustum: &FrustumLanes<S, V>, ends: &[[V; 3]; 2]) -> Self {
+        let (zero, one) = (frustum.zero, frustum.one);
         let [p, q] = ends;
-        let [start, end] = [planes.near_far(p), planes.near_far(q)];
+        let [start, end] = [frustum.near_far(p), frustum.near_far(q)];
         let difference = start[0] - end[0];
         let scale = one / difference;
-        // What comes before all, and after all; an infinity has no room for another number than 0.
+        // What comes before all, and after all. An infinity is brought down to them: tagged, it
+        // would be NaN.
         let (before, after) = (-one, one + one);
         let far = (start[1] * -scale).min(after).max(before);
-        let (near, far) = (
-            planes.numbered(start[0] * scale, 0),
-            planes.numbered(far, 1),
-        );
+        let (near, far) = (frustum.tagged(start[0] * scale, 0), frustum.tagged(far, 1));
         let rises = difference.simd_lt(zero);
         let mut entry = Latest {
             first: rises.select(near, far),
@@ -132,26 +98,26 @@ impl<S: Simd, V: SimdFloat<S, Element: Real>> Crossings<S, V> {
         let mut smallest = Smallest::of::<S>(start[0], end[0]);
         smallest.add::<S>(start[1], end[1]);
         for side in 0..4 {
-            let (a, b) = (planes.side(side, p), planes.side(side, q));
+            let (a, b) = (frustum.side(side, p), frustum.side(side, q));
             let difference = a - b;
-            let t = planes.numbered((a * (one / difference)).min(after), 2 + side);
+            let t = frustum.tagged((a * (one / difference)).min(after), 2 + side);
             let rises = difference.simd_lt(zero);
-            entry.add::<S>(rises.select(t, before));
-            exit.add::<S>(rises.select(after, t));
+            entry.add(rises.select(t, before));
+            exit.add(rises.select(after, t));
             smallest.add::<S>(a, b);
         }
-        let size = planes.size(ends);
-        // What two parameters can be off, together.
-        let error = planes.error(&size, one / smallest.difference);
+        let size = frustum.size(ends);
+        // Of two parameters together.
+        let error = frustum.error(&size, one / smallest.difference);
         let error = error + error;
         let overlap = entry.first - exit.first;
-        let signs = smallest.value.simd_gt(size.threshold) & planes.covers(&size);
+        let signs = smallest.value.simd_gt(size.threshold) & frustum.covers(&size);
         let enters = entry.first.simd_gt(zero);
         let leaves = exit.first.simd_lt(one);
         let entry_alone = entry.second.simd_lt(entry.first - error);
         let exit_alone = exit.second.simd_gt(exit.first + error);
         Crossings {
-            faces: [planes.number(entry.first), planes.number(exit.first)],
+            faces: [frustum.face(entry.first), frustum.face(exit.first)],
             cut: [enters, leaves],
             outside: signs & overlap.simd_gt(error),
             certain: signs
