@@ -4,7 +4,7 @@
 //! rule and error bound this follows. The parameters are in
 //! order: certificates and the lattice prove gaps of more than rounding closes.
 
-use crate::clip::rules::site::{Places, Site, Step, end_is_smaller, is_from_end};
+use crate::clip::rules::site::{NearerEnd, Places, Site, Step, end_is_smaller};
 use crate::clip::{Class, Part, PartEnd, SegmentClip};
 use crate::frustum::FaceSet;
 use crate::frustum::eval::filter::Filter;
@@ -30,10 +30,14 @@ pub(super) fn construct<const TIES: bool>(
     [a, b]: [f64x2; 2],
     ends: Ends,
 ) -> Places<f64x2> {
-    let from_end = is_from_end::<TIES, _>(a, b, || match TIES {
-        true => smaller(segment),
-        false => cold_smaller(segment),
-    });
+    let nearer = NearerEnd::new(a, b);
+    let from_end = if TIES {
+        nearer.with_ties(smaller(segment))
+    } else if nearer.has_ties() {
+        nearer.with_ties(cold_smaller(segment))
+    } else {
+        nearer.without_ties()
+    };
     let site = Site {
         step: Step::new(a, b, from_end),
         crossing: ends.crossing,
@@ -41,7 +45,8 @@ pub(super) fn construct<const TIES: bool>(
     };
     let [p, q] = [segment.start, segment.end]
         .map(|p| Vec3::new(f64x2::splat(p.x), f64x2::splat(p.y), f64x2::splat(p.z)));
-    site.places(p, q, |z| filter.precise.exact_depth(faces, z))
+    let z = site.step.coordinate(p.z, q.z);
+    site.places(p, q, filter.precise.exact_depth(faces, z))
 }
 
 /// All bits set if the end is lexicographically smaller than the start.

@@ -21,7 +21,7 @@
 use super::decide::{At, Decision};
 use super::inward;
 use super::staged::Staged;
-use crate::clip::rules::site::{Step, end_is_smaller, is_from_end};
+use crate::clip::rules::site::{NearerEnd, Step, end_is_smaller};
 use crate::clip::{Accuracy, Part, PartEnd, SegmentClip};
 use crate::exact::Number;
 use crate::exact::double_double::Dd;
@@ -122,7 +122,12 @@ fn crossing<T: Real>(
 /// From the magnitudes at start and end.
 #[inline(always)]
 fn step_from(a: f64, b: f64, segment: &Segment<f64>) -> Step<f64> {
-    let from_end = is_from_end::<false, _>(a, b, || is_smaller(segment));
+    let nearer = NearerEnd::new(a, b);
+    let from_end = if nearer.has_ties() {
+        nearer.with_ties(is_smaller(segment))
+    } else {
+        nearer.without_ties()
+    };
     Step::new(a, b, from_end)
 }
 

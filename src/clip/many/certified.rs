@@ -73,14 +73,16 @@ impl<S: Simd> Values<S> {
         [outside, inside, crossing]
     }
 
+    #[inline(always)]
+    fn crossing(&self, quad: Quad<S>, face: usize) -> FaceCrossing<f64x4<S>> {
+        let tag = quad.splat(f64::from_bits(face as u64));
+        FaceCrossing::new(self.a[face], self.b[face], tag)
+    }
+
     /// Latest entry and earliest exit, and what they prove.
     #[inline(always)]
     fn certify<L: Layout>(&self, quad: Quad<S>) -> Certificate<S> {
-        let crossing = |face: usize| {
-            let tag = quad.splat(f64::from_bits(face as u64));
-            FaceCrossing::new(self.a[face], self.b[face], tag)
-        };
-        let (near, left) = (crossing(0), crossing(2));
+        let (near, left) = (self.crossing(quad, 0), self.crossing(quad, 2));
         let mut enter = Latest::new(near.enter, left.enter);
         let mut leave = Latest::new(near.leave, left.leave);
         let mut scales = [near.scale, left.scale];
@@ -88,7 +90,7 @@ impl<S: Simd> Values<S> {
             if face == 1 && !L::FAR {
                 continue;
             }
-            let other = crossing(face);
+            let other = self.crossing(quad, face);
             enter.add(other.enter);
             leave.add(other.leave);
             let scale = &mut scales[usize::from(face > 1)];

@@ -4,9 +4,9 @@
 
 use super::certified::Values;
 use super::lanes::Quad;
-use super::points::{Ends, depths};
+use super::points::Ends;
 use crate::clip::exact::lattice::LatticeCrossing;
-use crate::clip::rules::site::{Site, Step, end_is_smaller, is_from_end};
+use crate::clip::rules::site::{NearerEnd, Site, Step, end_is_smaller};
 use crate::clip::whole::class;
 use crate::clip::{Part, SegmentClip};
 use crate::frustum::FaceSet;
@@ -91,7 +91,7 @@ impl<S: Simd> First<S> {
     #[inline(always)]
     fn site(&self, t: f64x4<S>, end_is_smaller: mask64x4<S>) -> ([usize; 4], Site<f64x4<S>>) {
         let sets: [u64; 4] = self.set.into();
-        let from_end = is_from_end::<true, _>(self.a, self.b, || end_is_smaller);
+        let from_end = NearerEnd::new(self.a, self.b).with_ties(end_is_smaller);
         // A touch at an end of the segment is twice that end.
         let end = t.simd_eq(1.0);
         let site = Site {
@@ -132,12 +132,11 @@ impl Clips {
             greatest = greatest.min(a.max(b));
         }
         let smaller = end_is_smaller(p, q);
-        let ends = |(faces, site): ([usize; 4], Site<_>)| {
-            Ends::new(site.places(p, q, |z| depths(quad, filter, faces, z)))
-        };
+        let (entry_faces, entries) = entry.site(t0, smaller);
+        let (exit_faces, exits) = exit.site(t1, smaller);
         Clips {
-            entries: ends(entry.site(t0, smaller)),
-            exits: ends(exit.site(t1, smaller)),
+            entries: Ends::new(quad, filter, entry_faces, &entries, p, q),
+            exits: Ends::new(quad, filter, exit_faces, &exits, p, q),
             sets: [entry.set.into(), exit.set.into(), coplanar.set.into()],
             clipped: [
                 least_a.simd_lt(0.0).to_bitmask(),

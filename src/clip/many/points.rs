@@ -3,7 +3,7 @@
 
 use super::lanes::{Quad, ends};
 use super::queue::Crossed;
-use crate::clip::rules::site::{Places, Site, Step, end_is_smaller, is_from_end};
+use crate::clip::rules::site::{NearerEnd, Site, Step, end_is_smaller};
 use crate::clip::{Class, Part, PartEnd, SegmentClip};
 use crate::exact::float::Width;
 use crate::frustum::FaceSet;
@@ -36,14 +36,12 @@ impl Parts {
     ) -> Self {
         let ends = ends(segments);
         let [p, q] = ends.map(|end| quad.points(end));
-        let places = |exit| {
-            let site = site(quad, filter, crossed, &ends, exit);
-            let faces = crossed.map(|c| c.face(exit));
-            Ends::new(site.places(p, q, |z| depths(quad, filter, faces, z)))
-        };
+        let [entry, exit] = [false, true].map(|exit| crossed.map(|c| c.face(exit)));
+        let entries = site(quad, filter, crossed, entry, &ends, false);
+        let exits = site(quad, filter, crossed, exit, &ends, true);
         Parts {
-            entries: places(false),
-            exits: places(true),
+            entries: Ends::new(quad, filter, entry, &entries, p, q),
+            exits: Ends::new(quad, filter, exit, &exits, p, q),
         }
     }
 
@@ -67,8 +65,21 @@ impl Parts {
 }
 
 impl Ends {
+    /// At these sites, with the indices of the faces crossed there.
     #[inline(always)]
-    pub(super) fn new<S: Simd>(places: Places<f64x4<S>>) -> Self {
+    pub(super) fn new<S: Simd>(
+        quad: Quad<S>,
+        filter: &Filter,
+        faces: [usize; 4],
+        site: &Site<f64x4<S>>,
+        p: Vec3<f64x4<S>>,
+        q: Vec3<f64x4<S>>,
+    ) -> Self {
+        let mut z = site.step.coordinate(p.z, q.z);
+        if let Some((level, at)) = filter.precise.levels(faces) {
+            z = quad.mask(level).select(quad.lanes(at), z);
+        }
+        let places = site.places(p, q, z);
         Ends {
             t: places.t.into(),
             x: places.x.into(),
@@ -95,31 +106,22 @@ fn site<S: Simd>(
     quad: Quad<S>,
     filter: &Filter,
     crossed: [Crossed; 4],
+    faces: [usize; 4],
     [starts, finishes]: &[[Vec3<f64>; 4]; 2],
     exit: bool,
 ) -> Site<f64x4<S>> {
-    let faces = crossed.map(|c| c.face(exit));
     let a = filter.precise.magnitudes(quad, faces, *starts);
     let b = filter.precise.magnitudes(quad, faces, *finishes);
-    let from_end = is_from_end::<false, _>(a, b, || quad.mask(smaller(starts, finishes)));
+    let nearer = NearerEnd::new(a, b);
+    let from_end = if nearer.has_ties() {
+        nearer.with_ties(quad.mask(smaller(starts, finishes)))
+    } else {
+        nearer.without_ties()
+    };
     Site {
         step: Step::new(a, b, from_end),
         crossing: quad.mask(crossed.map(|c| c.clipped(exit))),
         end: quad.mask([exit; 4]),
-    }
-}
-
-/// `z`, or the exact depth of the near or far face that was hit.
-#[inline(always)]
-pub(super) fn depths<S: Simd>(
-    quad: Quad<S>,
-    filter: &Filter,
-    faces: [usize; 4],
-    z: f64x4<S>,
-) -> f64x4<S> {
-    match filter.precise.levels(faces) {
-        Some((level, at)) => quad.mask(level).select(quad.lanes(at), z),
-        None => z,
     }
 }
 

@@ -17,21 +17,41 @@ pub(crate) fn end_is_smaller<F: Compare>(p: Vec3<F>, q: Vec3<F>) -> F::Mask {
     q.x.is_less(p.x) | (p.x.is_equal(q.x) & by_y_and_z)
 }
 
-/// Whether a crossing is reached from the segment's end, not from its start; from the magnitudes of
-/// the values at both. `end_is_smaller` is asked for ties only.
-#[inline(always)]
-pub(crate) fn is_from_end<const TIES: bool, F: Compare>(
-    a: F,
-    b: F,
-    end_is_smaller: impl FnOnce() -> F::Mask,
-) -> F::Mask {
-    let nearer = b.is_less(a);
-    let ties = a.is_equal(b);
-    // `TIES`: they are common, so there is no branch for them.
-    if TIES || F::any(ties) {
-        nearer | (ties & end_is_smaller())
-    } else {
-        nearer
+/// The nearer end of a segment, seen from a crossing.
+#[derive(Clone, Copy)]
+pub(crate) struct NearerEnd<F: Compare> {
+    /// Whether it is the segment's end.
+    is_end: F::Mask,
+    /// Whether both ends are equally near.
+    ties: F::Mask,
+}
+
+impl<F: Compare> NearerEnd<F> {
+    /// From the magnitudes of the values at start and end.
+    #[inline(always)]
+    pub(crate) fn new(a: F, b: F) -> Self {
+        Self {
+            is_end: b.is_less(a),
+            ties: a.is_equal(b),
+        }
+    }
+
+    /// Whether there are ties.
+    #[inline(always)]
+    pub(crate) fn has_ties(&self) -> bool {
+        F::any(self.ties)
+    }
+
+    /// Whether it is the segment's end, with no ties.
+    #[inline(always)]
+    pub(crate) fn without_ties(&self) -> F::Mask {
+        self.is_end
+    }
+
+    /// Whether it is the segment's end, with ties decided by [`end_is_smaller`].
+    #[inline(always)]
+    pub(crate) fn with_ties(&self, end_is_smaller: F::Mask) -> F::Mask {
+        self.is_end | (self.ties & end_is_smaller)
     }
 }
 
@@ -96,17 +116,17 @@ pub(crate) struct Places<F> {
 }
 
 impl<F: Compare> Site<F> {
-    /// Parameters and points, from the segment's ends. `depth` gives the `z` of a crossing from
-    /// the computed one: that of near or far where that is exact.
+    /// Parameters and points, from the segment's ends. `z` is that of the crossing: by the step, or
+    /// the exact one of near and far.
     #[inline(always)]
-    pub(crate) fn places(&self, p: Vec3<F>, q: Vec3<F>, depth: impl FnOnce(F) -> F) -> Places<F> {
+    pub(crate) fn places(&self, p: Vec3<F>, q: Vec3<F>, z: F) -> Places<F> {
         let (zero, one) = (p.x.splat(0.0), p.x.splat(1.0));
         let step = &self.step;
         Places {
             t: self.select(step.parameter(), zero, one),
             x: self.select(step.coordinate(p.x, q.x), p.x, q.x),
             y: self.select(step.coordinate(p.y, q.y), p.y, q.y),
-            z: self.select(depth(step.coordinate(p.z, q.z)), p.z, q.z),
+            z: self.select(z, p.z, q.z),
         }
     }
 

@@ -33,8 +33,10 @@ mod triage;
 mod undecided;
 mod widen;
 
+pub(crate) use output::Out;
 pub use output::SegmentIntervals;
-pub(crate) use output::{Out, Uncertain};
+#[cfg(feature = "parallel")]
+pub(crate) use output::Uncertain;
 pub use segments::{SegmentArrays, Segments};
 
 use crate::frustum::Frustum;
