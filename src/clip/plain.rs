@@ -1,8 +1,8 @@
-//! What the plain tiers of all clippers share: the check of the input, the
-//! choice of the frustum's form, and the assembling of a result.
+//! The plain tiers' common parts: the check of the input, the
+//! choice of the frustum's form, and the construction of a result.
 //!
 //! Every plain clipper finds two parameters, two face sets and the coplanar
-//! set in its own way; what they mean is said once, in [`Found::build`].
+//! set in its own way; [`Found::build`] makes the result of them.
 //!
 //! The sets hold the faces whose computed parameter equals the chosen one,
 //! and at an end that is not clipped those with a boundary value of zero.
@@ -35,7 +35,7 @@ pub(crate) fn run<T: Real>(
     run_huge(frustum, segment, clip)
 }
 
-/// What is left: an error, or a segment so large that it is clipped at an
+/// The other cases: an error, or a segment so large that it is clipped at an
 /// eighth of its size.
 #[cold]
 #[inline(never)]
@@ -85,7 +85,7 @@ pub(crate) fn min<T: Real>(new: T, acc: T) -> T {
     if new < acc { new } else { acc }
 }
 
-/// What a plain clipper has found in a segment that meets the frustum.
+/// The findings of a plain clipper about a segment that meets the frustum.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Found<T> {
     /// The parameters, `0 <= t[0] <= t[1] <= 1`.
@@ -133,8 +133,8 @@ impl<T: Real> Found<T> {
         }
     }
 
-    /// Takes in the values of a face at both ends, dividing only where their
-    /// signs ask for it. False if both are outside.
+    /// Adds a face by its values at both ends, and divides only if their
+    /// signs differ. False if both ends are outside.
     #[inline(always)]
     pub(crate) fn face_by_signs(&mut self, face: Face, a: T, b: T) -> bool {
         let zero = T::ZERO;
@@ -152,7 +152,7 @@ impl<T: Real> Found<T> {
         true
     }
 
-    /// Takes in a face that has a zero value at an end.
+    /// Adds a face that has a zero value at an end.
     #[cold]
     fn zeros(&mut self, face: Face, a: T, b: T) {
         let zero = T::ZERO;

@@ -1,12 +1,12 @@
-//! V/W where floating point makes no error: coordinates on a coarse grid, and
-//! a frustum whose numbers are.
+//! V/W where floating point makes no error: the coordinates and the frustum's constants are on a
+//! coarse grid.
 //!
-//! Values have at most 25 bits ([`Filter`] sees to that), so they and their
+//! Values have at most 25 bits ([`Filter`] ensures it), so they and their
 //! differences are exact. Two crossing parameters that differ do so by more
 //! than 2^-52, and each quotient is rounded by at most 2^-54: rounded
 //! parameters are in the order of the exact ones, and equal where they are. So
-//! the plain algorithm decides exactly, also what touches, at its own speed.
-//! Grid-aligned models against grid-aligned boxes are all of this kind.
+//! the plain algorithm decides exactly, touches included, at its own speed.
+//! Grid-aligned models in grid-aligned boxes are all of this kind.
 
 use super::pair::{self, Ends};
 use crate::clip::SegmentClip;
@@ -122,7 +122,7 @@ fn set(lanes: [f64x2; 3]) -> FaceSet {
     FaceSet::from_bits((bits & 0x3f) as u8)
 }
 
-/// Parameters, the faces crossed there, and whether the segment goes on.
+/// Parameters of entry and exit, the faces crossed there, and whether the segment goes on.
 struct Found {
     at: [f64; 2],
     faces: [FaceSet; 2],
@@ -153,7 +153,7 @@ fn finish<T: Real>(
     let [e, l] = crossed;
     let a = f64x2::new([p.of(e), p.of(l)]).abs();
     let b = f64x2::new([q.of(e), q.of(l)]).abs();
-    // At the segment's own ends there is nothing to construct; a touch there is
+    // The segment's own ends are not constructed; a touch there is
     // twice the same end.
     let at = f64x2::new(at);
     let end = at.simd_eq(f64x2::splat(1.0));

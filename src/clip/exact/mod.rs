@@ -3,8 +3,8 @@
 //! ```text
 //! staged    the predicates, in stages: lattice, filter, double-double,
 //!           expansions, integers
-//! decide    a span and the predicates give class, sets and where the ends are
-//! points    the ends' parameters and coordinates, to the accuracy asked for
+//! decide    class, sets and places of the ends, from a span and the predicates
+//! points    the ends' parameters and coordinates, to the requested accuracy
 //! vw        V/W with certificates instead, where rounded values prove enough
 //! lattice   the same where floating point makes no error at all
 //! pair      both ends of a segment side by side

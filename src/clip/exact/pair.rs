@@ -1,8 +1,8 @@
 //! Entry and exit side by side in the two lanes of a register.
 //!
 //! The same points, bit for bit, as one at a time in [`super::points`], whose
-//! rule and error bound this follows. The parameters are in
-//! order: certificates and the lattice prove gaps of more than rounding closes.
+//! error bound this follows. The parameters are in
+//! order: certificates and the lattice prove that the gap is larger than rounding errors.
 
 use crate::clip::rules::site::{NearerEnd, Places, Site, Step, end_is_smaller};
 use crate::clip::{Class, Part, PartEnd, SegmentClip};
@@ -11,7 +11,7 @@ use crate::frustum::eval::filter::Filter;
 use crate::math::{Real, Segment, Vec3};
 use wide::f64x2;
 
-/// What is at the two ends of the part, in lanes with all bits set or none.
+/// The kinds of the part's two ends, in lanes with all bits set or none.
 pub(super) struct Ends {
     /// A crossing, not an end of the segment.
     pub(super) crossing: f64x2,

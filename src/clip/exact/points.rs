@@ -5,8 +5,7 @@
 //! `(B start + A end) / (A + B)`.
 //!
 //! *Fast* takes A and B with a relative error of at most 2 u and steps from the
-//! end with the smaller value, a fraction tau <= 1/2 of the way (ties: from
-//! the lexicographically smaller point), so that swapping the ends gives the
+//! nearer end, by the rule of `clip/rules/site.rs`, so that swapping the ends gives the
 //! same bits. With M the largest coordinate: tau is within
 //! tau (1 - tau) 4 u + 2 u tau <= 2 u, which moves the point by at most
 //! 2 u * 2 M; the difference of the ends, the product and the sum add
@@ -15,7 +14,7 @@
 //!
 //! *Nearest* evaluates in double-double with an error bound, and rounds where
 //! both ends of the error interval round alike (Ziv's test); else in integers.
-//! A coordinate that the face itself says is not evaluated: boxes have faces at
+//! A coordinate that the face itself determines is not evaluated: boxes have faces at
 //! zero, where no error bound proves the sign.
 
 use super::decide::{At, Decision};
@@ -231,8 +230,9 @@ fn nearest<T: Real>(staged: &mut Staged<'_>, face: Face) -> (T, Vec3<T>) {
     (exact.parameter(), exact.rounded())
 }
 
-/// 2^-99: covers the relative errors of a handful of double-double operations.
-const DD_ERROR: f64 = 1.5777218104420236e-30;
+/// Upper bound of the relative error of a few double-double operations: 2^-99 = 128 u^2, with at
+/// most 15 u^2 for one.
+const DOUBLE_DOUBLE_RELATIVE_ERROR: f64 = 128.0 * f64::UNIT_ROUNDOFF * f64::UNIT_ROUNDOFF;
 
 fn nearest_double_double<T: Real>(staged: &Staged<'_>, face: Face) -> Option<(T, Vec3<T>)> {
     let filter = staged.filter();
@@ -245,7 +245,7 @@ fn nearest_double_double<T: Real>(staged: &Staged<'_>, face: Face) -> Option<(T,
     // The values are within 60 u^2 scale < 2^-54 thresholds.
     let threshold = |v| filter.threshold(face, v);
     let threshold = threshold(staged.values[0].size).max(threshold(staged.values[1].size));
-    let tau_error = 1.2e-16 * threshold / total.hi + DD_ERROR;
+    let tau_error = 1.2e-16 * threshold / total.hi + DOUBLE_DOUBLE_RELATIVE_ERROR;
     let t = if from_start {
         tau
     } else {
@@ -256,9 +256,9 @@ fn nearest_double_double<T: Real>(staged: &Staged<'_>, face: Face) -> Option<(T,
     } else {
         (end, start)
     };
-    let level = filter.identity.then(|| staged.frustum.shape().level(face));
+    let exact = filter.identity.then(|| staged.frustum.shape().level(face));
     let coordinate = |k: usize| {
-        if let Some(Some((axis, at))) = level
+        if let Some(Some((axis, at))) = exact
             && axis == k
         {
             return Some(T::from_f64(at + 0.0));
@@ -268,7 +268,8 @@ fn nearest_double_double<T: Real>(staged: &Staged<'_>, face: Face) -> Option<(T,
         }
         let d = Dd::difference(to[k], from[k]);
         let v = Dd::new(from[k], 0.0).add(tau.mul(d));
-        let error = d.hi.abs() * tau_error + DD_ERROR * (from[k].abs() + d.hi.abs());
+        let error =
+            d.hi.abs() * tau_error + DOUBLE_DOUBLE_RELATIVE_ERROR * (from[k].abs() + d.hi.abs());
         round(v, error)
     };
     let point = Vec3::new(coordinate(0)?, coordinate(1)?, coordinate(2)?);
