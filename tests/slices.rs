@@ -1,5 +1,5 @@
-//! Slices of segments, as a caller sees them. That every clip has the bits of the
-//! segment alone, at every vector width, is tested in `src/clip/slice/tests.rs`.
+//! Slices of segments through the public interface. That every clip has the bits of the
+//! segment alone, at every vector width, is tested in `src/clip/many/tests.rs`.
 
 use frusta::samples::Family;
 use frusta::{
@@ -70,7 +70,7 @@ fn every_clipper_clips_slices_of_every_length_as_it_clips_segments() {
 }
 
 #[test]
-fn a_number_that_is_not_finite_is_named_with_its_place_and_nothing_is_given() {
+fn a_coordinate_that_is_not_finite_is_an_error_with_its_index_and_there_are_no_clips() {
     let (frustum, all) = scene(Family::Random, 600);
     for clipper in clippers() {
         for (index, later) in [(0, 1), (1, 599), (299, 300), (598, 599)] {

@@ -1,4 +1,4 @@
-//! Slices made of a case's segment and of variants of it, against single calls.
+//! Slices made of a case's segment and of variants of it, compared with single calls.
 
 use crate::check::bits;
 use frusta::{

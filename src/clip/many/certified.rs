@@ -27,7 +27,7 @@ pub(super) struct Run<'a, S, T> {
     pub(super) counts: &'a mut StageCounts,
 }
 
-/// The six boundary values at both ends of four segments, sizes and thresholds.
+/// The six boundary values at both ends of four segments, their sizes and thresholds.
 pub(super) struct Values<S: Simd> {
     pub(super) a: [f64x4<S>; 6],
     pub(super) b: [f64x4<S>; 6],
@@ -146,7 +146,7 @@ impl<S: Simd, T: Real> Run<'_, S, T> {
         self.uncertain()
     }
 
-    /// All segments, four at a time; the last group is filled up with its last one.
+    /// All segments, four at a time; the last group is filled up with its last segment.
     #[inline(always)]
     fn triage<L: Layout>(&mut self) {
         let (groups, rest) = self.block.segments.as_chunks::<4>();
@@ -159,7 +159,7 @@ impl<S: Simd, T: Real> Run<'_, S, T> {
         }
     }
 
-    /// `present` has the bits of the segments that are there.
+    /// `present` has the bits of the segments that count.
     #[inline(always)]
     fn triage_four<L: Layout>(&mut self, group: [&Segment<T>; 4], base: usize, present: u64) {
         let filter = self.block.frustum.filter();
@@ -172,13 +172,13 @@ impl<S: Simd, T: Real> Run<'_, S, T> {
         let mut crossing = crossing.to_bitmask() & present;
         let mut lattice = 0;
         if self.accuracy != Accuracy::Fast {
-            // Points are constructed elsewhere.
+            // They are clipped one by one, with their points.
             crossing = 0;
         } else if let Some((round, limit)) = filter.lattice() {
             let small = values.sizes[0].simd_lt(limit) & values.sizes[1].simd_lt(limit);
             let on = small & on_grid(round, p) & on_grid(round, q);
             lattice = on.to_bitmask() & present;
-            // Those that are settled are counted here, the rest when they are.
+            // Settled ones are counted here, the others when they are settled.
             self.counts.lattice += u64::from((lattice & settled).count_ones());
             lattice &= !settled;
             crossing &= !lattice;
@@ -191,7 +191,7 @@ impl<S: Simd, T: Real> Run<'_, S, T> {
         self.queues.uncertain.append(items, uncertain);
     }
 
-    /// What plain arithmetic clips without an error.
+    /// Clips the segments for which plain arithmetic makes no error.
     #[inline(always)]
     fn lattice<L: Layout>(&mut self) {
         let Queues {
@@ -203,20 +203,20 @@ impl<S: Simd, T: Real> Run<'_, S, T> {
             clips,
         } = &mut self.block;
         let filter = frustum.filter();
-        let mut nowhere = outside();
+        let mut discarded = outside();
         for (items, count) in lattice.groups::<4>() {
             let [p, q] = ends(items.map(|i| &segments[i as usize]));
             let (p, q) = (self.quad.points(p), self.quad.points(q));
             let values = Values::new::<L>(filter, p, q);
             let found = lattice::Clips::new(self.quad, filter, &values, p, q);
             let present = 0xf >> (4 - count);
-            // What has no length is clipped, and counted, alone.
+            // A segment of zero length is clipped, and counted, alone.
             uncertain.append(items, found.still & present);
             self.counts.lattice += u64::from((present & !found.still).count_ones());
             for (j, item) in items.into_iter().enumerate() {
                 // A pointer is chosen without a branch.
                 let place = if (found.outside | found.still) >> j & 1 != 0 {
-                    &mut nowhere
+                    &mut discarded
                 } else {
                     &mut clips[item as usize]
                 };
@@ -225,7 +225,7 @@ impl<S: Simd, T: Real> Run<'_, S, T> {
         }
     }
 
-    /// What certainly has ends on both sides of some faces.
+    /// Certifies the segments that certainly have ends on both sides of some faces.
     #[inline(always)]
     fn certify<L: Layout>(&mut self) {
         let Queues {
@@ -254,6 +254,7 @@ impl<S: Simd, T: Real> Run<'_, S, T> {
         }
     }
 
+    /// Constructs the points of certain crossings.
     #[inline(always)]
     fn construct(&mut self) {
         let filter = self.block.frustum.filter();

@@ -53,7 +53,7 @@ pub(super) fn ends<T: Real>(segments: [&Segment<T>; 4]) -> [[Vec3<f64>; 4]; 2] {
     ]
 }
 
-/// Whether products and sums are fused where that is asked for.
+/// Whether a product and a sum can be fused into one instruction.
 #[inline(always)]
 fn fuses<S: Simd>(simd: S) -> bool {
     match simd.level() {
@@ -79,8 +79,8 @@ impl<S: Simd> Lanes for f64x4<S> {
         SimdBase::abs(self)
     }
 
-    /// One fused operation, where there is one: what a product lost is a double, so
-    /// it is the same bits both ways, but where it underflows. There a value
+    /// One fused operation, where there is one: the rest of a product is an `f64`, so
+    /// both ways give the same bits, except where it underflows. There a value
     /// that matters is above 2^-500, and the difference, below 2^-1070, is lost
     /// in the sum.
     #[inline(always)]

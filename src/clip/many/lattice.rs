@@ -26,7 +26,7 @@ pub(super) struct Clips {
     touch: u64,
     /// Segments that are outside.
     pub(super) outside: u64,
-    /// Segments of no length.
+    /// Segments of zero length.
     pub(super) still: u64,
 }
 
@@ -61,7 +61,7 @@ impl<S: Simd> Crossings<S> {
     }
 }
 
-/// Sets of faces as bits, and the values' magnitudes at the first face of each.
+/// Sets of faces as bits, and the magnitudes of the values of each set's first face.
 struct First<S: Simd> {
     set: u64x4<S>,
     a: f64x4<S>,

@@ -2,35 +2,39 @@
 //!
 //! # Idea
 //! ```text
-//! for each block of segments:
+//! for each block of 256 segments:
 //!     all are outside, until something else is known
-//!     triage    four at a time: the boundary values at both ends, and what their
-//!               signs prove; the numbers of the rest go to queues: inside,
-//!               lattice, crossing, unsure
-//!     lattice   four at a time, what is so coarse that nothing is rounded
-//!     crossing  four at a time from the queue: crossing parameters of all faces,
-//!               their latest entry and earliest exit; what is certain goes to a
-//!               queue with its two faces, the rest to the unsure
-//!     points    four at a time from the queue
-//!     inside    one by one: copies
-//!     unsure    one by one, as without slices
+//!     triage     four at a time: the boundary values at both ends, and what their
+//!                signs prove; the indices of the others go to queues: inside,
+//!                lattice, crossing, uncertain
+//!     lattice    four at a time, those so coarse that nothing is rounded
+//!     crossing   four at a time from the queue: crossing parameters of all faces,
+//!                their latest entry and earliest exit; certain ones go to a
+//!                queue with their two faces, the others to the uncertain ones
+//!     points     four at a time from the queue
+//!     inside     one by one: copies
+//!     uncertain  one by one, by the exact predicates of a single segment
 //! ```
-//! Queues are filled without branches, so that nothing depends on what cannot be
-//! predicted: which segments of a mixed scene are outside, inside or cut. That
-//! costs a textbook clipper most of its time.
+//! Queues are filled without branches, as it cannot be
+//! predicted which segments of a mixed scene are outside, inside or cut. Mispredicted branches
+//! cost a textbook clipper most of its time.
 //!
 //! V/W's symmetry gives the lanes their short values: left and right share a
 //! half-width, bottom and top another, near and far serve both trapezoids.
 //!
 //! # The same bits
-//! Each lane does what [`VwProjection`](crate::VwProjection) does with one segment, in
-//! the same order of operations, or hands it on to just that. The vector width is
-//! chosen once for a slice, at run time. The only fused operation is the rest of a
+//! Each lane applies the rules of `clip/rules/`, as [`VwProjection`](crate::VwProjection) does
+//! with one segment, in the same order of operations, or leaves the segment to it. The values of
+//! an uncertain segment are not passed along: few are, and a queue of values would cost all. The
+//! vector width is chosen once for a slice, at run time. The only fused operation is the rest of a
 //! product, which is exact either way.
+//!
+//! Closures that use registers are marked `#[inline(always)]`, or avoided: others are compiled
+//! without the vector width's instructions.
 //!
 //! # Source
 //! Four side values as one vector: V/W's own symmetry (see `clip/vw.rs`). Queues
-//! instead of branches: as in vectorised data bases' selection vectors (Boncz,
+//! instead of branches: as the selection vectors of vectorised databases (Boncz,
 //! Zukowski, Nes, "MonetDB/X100", 2005).
 
 mod certified;
@@ -48,7 +52,7 @@ use crate::simd::at_width;
 use fearless_simd::{Level, Simd};
 use queue::{BLOCK, Queues};
 
-/// Segments of a block, and where their clips go: as many, all outside.
+/// Segments of a block, and the places of their clips: as many, all outside.
 struct Block<'a, T> {
     frustum: &'a Frustum,
     segments: &'a [Segment<T>],
@@ -100,7 +104,7 @@ pub(crate) fn clip_plain<T: Real>(
     })
 }
 
-/// What clips a block of one scalar type. Functions that are not generic are
+/// The kernels that clip a block of one scalar type. Functions that are not generic are
 /// compiled once, here, and not in every crate that clips.
 struct Kernels<T: Real> {
     exact: ExactKernel<T>,

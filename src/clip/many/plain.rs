@@ -1,6 +1,6 @@
 //! Plain V/W, a register of segments at a time: the steps of `clip/vw.rs` in the
-//! same order. What is rare there goes to the uncertain: a value of zero, and
-//! numbers so large that something may overflow.
+//! same order. Rare cases are clipped one by one: values of zero, and
+//! coordinates so large that something may overflow.
 
 use super::Block;
 use super::queue::{BLOCK, Queues};
@@ -160,7 +160,7 @@ where
         self.uncertain()
     }
 
-    /// The first `count` of a group count.
+    /// Only the first `count` segments of the group count.
     #[inline(always)]
     fn triage<L: Layout, const N: usize>(
         &mut self,
@@ -193,7 +193,7 @@ where
         self.queues.uncertain.append(items, uncertain);
     }
 
-    /// What has ends on both sides of some faces, and on none.
+    /// Clips the segments that have ends on both sides of some faces, and on no face.
     #[inline(always)]
     fn cross<L: Layout, const N: usize>(&mut self)
     where
@@ -202,7 +202,7 @@ where
         let Block {
             segments, clips, ..
         } = &mut self.block;
-        let mut nowhere = outside();
+        let mut discarded = outside();
         for (items, _) in self.queues.crossing.groups::<N>() {
             let group = items.map(|i| &segments[i as usize % BLOCK]);
             let p: Vec3<V> = points(self.simd, group.map(|s| s.start));
@@ -213,7 +213,7 @@ where
                 // A pointer is chosen without a branch. The last group's
                 // repeated items have the same clips.
                 let place = if found.t[0][j] > found.t[1][j] {
-                    &mut nowhere
+                    &mut discarded
                 } else {
                     &mut clips[item as usize]
                 };
@@ -239,7 +239,7 @@ struct Crossings<T, const N: usize> {
     t: [[T; N]; 2],
     points: [[[T; N]; 3]; 2],
     clipped: [u64; 2],
-    /// Sets as numbers.
+    /// Sets of faces, as the values of their bits.
     faces: [[T; N]; 2],
 }
 
@@ -268,7 +268,7 @@ where
             continue;
         }
         let t = a[i] / (a[i] - b[i]);
-        // A face that is not crossed stands where it changes nothing.
+        // The parameters of a face that is not crossed change nothing.
         enter[i] = a[i].simd_gt(zero).select(before, t);
         leave[i] = b[i].simd_gt(zero).select(beyond, t);
         t0 = t0.max(enter[i]);

@@ -1,5 +1,5 @@
 //! The ends of four segments with certain crossings, by the rule of
-//! `clip/exact/points.rs`; compare `clip/exact/pair.rs`.
+//! `clip/rules/site.rs`: each end in a register. `clip/exact/pair.rs` has both ends in one.
 
 use super::lanes::{Quad, ends};
 use super::queue::Crossed;

@@ -1,19 +1,19 @@
 //! The latest entry and the earliest exit of a register of segments, and whether they are certain.
 //!
 //! # Which side a parameter is on
-//! A face whose value falls from a start to an end is left at `t = a / (a - b)`, one whose value
-//! rises is entered there, if it is met at all: t is less than 0 where the segment began beyond an
-//! entry, more than 1 where it ends before an exit. So the signs of differences tell entries from
-//! exits, and what is not met needs no mask: it is never the last nor the first of those that are.
-//! That holds for rounded parameters: a value beyond its threshold is more than 8 u of its face's
-//! difference, and a side's or near's parameter is off by less than 4 u of itself; a face's number
-//! takes the place of its last three bits, which are zeros in 0, 1 and 2.
+//! A face whose value falls from start to end is left at `t = a / (a - b)`, one whose value
+//! rises is entered there, if it is crossed at all: t is less than 0 if the segment starts beyond an
+//! entry, more than 1 if it ends before an exit. So the signs of differences distinguish entries
+//! from exits, and a face that is not crossed needs no mask: it is never the latest entry nor the
+//! earliest exit of those that are. That holds for rounded parameters: a value beyond its threshold
+//! is more than 8 u of its face's difference, and a side's or near's parameter is off by less than
+//! 4 u of itself; the tag takes the place of its last three bits, which are zeros in 0, 1 and 2.
 //!
 //! # One difference for near and far
 //! Their values rise and fall together: one of them is entered, the other left. The difference of
 //! near's values stands for both, so that far's parameter is off by 7.2 u S + 4.2 u |d| over it
 //! (`proofs/half_space.gappa`), of the 8 of each that a threshold has (`frustum.rs`). So it is on the
-//! right side, too: where far is met both its values are beyond their threshold. And
+//! right side, too: where far is crossed both its values are beyond their threshold. And
 //! the difference is off by less than a quarter of that, so that it is not less than the
 //! larger of far's values, to which the smaller one adds.
 
@@ -26,16 +26,16 @@ use fearless_simd::prelude::*;
 /// A mask for `V`'s lanes.
 type Mask<S, V> = <V as SimdBase<S>>::Mask;
 
-/// Where each of a register of segments is cut.
+/// The crossings of a register of segments.
 pub(super) struct Crossings<S: Simd, V: SimdFloat<S>> {
     /// The index of the face at which a segment enters last, and of the one at which it leaves
     /// first; any index if it does not.
     pub(super) faces: [V::Bits; 2],
-    /// Whether it does.
+    /// Whether it enters, and whether it leaves.
     pub(super) cut: [Mask<S, V>; 2],
-    /// The entry certainly comes after the exit.
+    /// Whether the entry certainly comes after the exit.
     pub(super) outside: Mask<S, V>,
-    /// The entry certainly comes before the exit, and each certainly is at that face alone.
+    /// Whether the entry certainly comes before the exit, and each certainly is at that face alone.
     pub(super) certain: Mask<S, V>,
     /// The size of its coordinates, as [`Size::sum`].
     pub(super) size: V,
@@ -43,9 +43,9 @@ pub(super) struct Crossings<S: Simd, V: SimdFloat<S>> {
 
 /// The smallest magnitudes that matter.
 struct Smallest<V> {
-    /// Of all values.
+    /// The smallest of all values.
     value: V,
-    /// Of each face's larger value: no crossing's difference is smaller.
+    /// The smallest of the faces' larger values: no crossing's difference is smaller.
     difference: V,
 }
 

@@ -100,7 +100,7 @@ impl<T: Real> Out<'_, T> {
     }
 }
 
-/// Whether registers can be packed fast.
+/// Whether the machine packs registers fast.
 #[inline(always)]
 pub(super) fn packs<S: Simd>(simd: S) -> bool {
     #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
@@ -109,7 +109,7 @@ pub(super) fn packs<S: Simd>(simd: S) -> bool {
     return false;
 }
 
-/// A block from `start` of each array, if there are so many.
+/// A block of each array from `start` on, if the arrays have so many.
 #[inline(always)]
 fn blocks<T>(arrays: [&[T]; 6], start: usize) -> Option<[&[T; BLOCK]; 6]> {
     let block = |k: usize| arrays[k].get(start..)?.first_chunk();

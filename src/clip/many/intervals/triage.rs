@@ -26,7 +26,7 @@ pub(super) struct Answers<'a, T> {
     pub(super) t1: &'a mut [T; BLOCK],
 }
 
-/// The points of a register of segments, from `at` on.
+/// The ends of a register of segments, from `at` on.
 #[inline(always)]
 pub(super) fn ends<S, V, const N: usize, const M: usize>(
     simd: S,
