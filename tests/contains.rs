@@ -53,17 +53,17 @@ fn off<T: Real>(value: T, ulps: i64) -> T {
 #[test]
 fn contains_agrees_with_the_oracle_next_to_every_feature() {
     let mut random = Random::new(&[31]);
-    let (mut double, mut single) = (Seen::default(), Seen::default());
+    let (mut seen_f64, mut seen_f32) = (Seen::default(), Seen::default());
     for family in Family::ALL {
         for index in 0..200 {
             let (frustum, segment) = family.case(5, index);
-            check(&frustum, &segment, &mut random, &mut double);
+            check(&frustum, &segment, &mut random, &mut seen_f64);
             if let Some((frustum, segment)) = family.case_f32(5, index) {
-                check(&frustum, &segment, &mut random, &mut single);
+                check(&frustum, &segment, &mut random, &mut seen_f32);
             }
         }
     }
-    for seen in [double, single] {
+    for seen in [seen_f64, seen_f32] {
         assert!(seen.inside > 10_000 && seen.outside > 10_000, "{seen:?}");
     }
 }

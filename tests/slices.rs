@@ -45,7 +45,7 @@ fn every_clipper_clips_slices_of_every_length_as_it_clips_segments() {
             let mut clips = vec![SegmentClip::OUTSIDE; 3];
             for length in (0..20).chain([63, 64]) {
                 let segments = &all[all.len() - length..];
-                let (mut counts, mut single) = <(StageCounts, StageCounts)>::default();
+                let (mut counts, mut alone) = <(StageCounts, StageCounts)>::default();
                 let done =
                     clipper.clip_segments_counted(&frustum, segments, &mut clips, &mut counts);
                 done.expect("finite");
@@ -53,7 +53,7 @@ fn every_clipper_clips_slices_of_every_length_as_it_clips_segments() {
                     .iter()
                     .map(|s| {
                         clipper
-                            .clip_segment_counted(&frustum, s, &mut single)
+                            .clip_segment_counted(&frustum, s, &mut alone)
                             .expect("finite")
                     })
                     .collect();
@@ -63,7 +63,7 @@ fn every_clipper_clips_slices_of_every_length_as_it_clips_segments() {
                     "{} on {length} of {family}",
                     clipper.name()
                 );
-                assert_eq!(counts, single, "{} on {length} of {family}", clipper.name());
+                assert_eq!(counts, alone, "{} on {length} of {family}", clipper.name());
             }
         }
     }

@@ -84,5 +84,4 @@ impl Span {
 }
 
 #[cfg(test)]
-#[path = "predicates_tests.rs"]
 mod tests;

@@ -22,7 +22,7 @@ use crate::clip::predicates::{Predicates, Role, Span};
 use crate::clip::rules::certificate::{
     ENTRIES_ABOVE, EXITS_ABOVE, FaceCrossing, Latest, error_of_two, error_of_values,
 };
-use crate::clip::rules::triage::{Extremes, Triage};
+use crate::clip::rules::triage::{Extremes, Signs};
 use crate::clip::whole::{inside, outside};
 use crate::clip::{Accuracy, Class, SegmentClip, StageCounts};
 use crate::exact::float::Pair;
@@ -144,16 +144,16 @@ fn triage(filter: &Filter, p: &Values, q: &Values) -> Verdict {
     let (depth, side) = filter.crossing_thresholds(size);
     let thresholds = (f64x2::splat(depth), f64x2::splat(side));
     let (a, b) = (&p.pairs, &q.pairs);
-    let mut triage = Triage {
+    let mut signs = Signs {
         depth: Extremes::new(a[0], b[0]),
         side: Extremes::new(a[1], b[1]),
     };
-    triage.side.add(a[2], b[2]);
-    if triage.outside(thresholds).any() {
+    signs.side.add(a[2], b[2]);
+    if signs.outside(thresholds).any() {
         Verdict::Outside
-    } else if triage.inside(thresholds).all() {
+    } else if signs.inside(thresholds).all() {
         Verdict::Inside
-    } else if triage.certain(thresholds).all() {
+    } else if signs.certain(thresholds).all() {
         Verdict::Crossing
     } else {
         Verdict::Uncertain

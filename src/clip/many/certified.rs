@@ -9,7 +9,7 @@ use crate::clip::exact;
 use crate::clip::rules::certificate::{
     ENTRIES_ABOVE, EXITS_ABOVE, FaceCrossing, Latest, error_of_two, error_of_values,
 };
-use crate::clip::rules::triage::{Extremes, Triage};
+use crate::clip::rules::triage::{Extremes, Signs};
 use crate::clip::whole::{inside, outside};
 use crate::clip::{Accuracy, StageCounts};
 use crate::frustum::Layout;
@@ -58,18 +58,18 @@ impl<S: Simd> Values<S> {
     #[inline(always)]
     fn triage(&self) -> [mask64x4<S>; 3] {
         let (a, b) = (&self.a, &self.b);
-        let mut triage = Triage {
+        let mut signs = Signs {
             depth: Extremes::new(a[0], b[0]),
             side: Extremes::new(a[2], b[2]),
         };
-        triage.depth.add(a[1], b[1]);
+        signs.depth.add(a[1], b[1]);
         for i in 3..6 {
-            triage.side.add(a[i], b[i]);
+            signs.side.add(a[i], b[i]);
         }
         let thresholds = (self.depth, self.side);
-        let outside = self.covered & triage.outside(thresholds);
-        let inside = self.covered & triage.inside(thresholds) & !outside;
-        let crossing = self.covered & triage.certain(thresholds) & !outside & !inside;
+        let outside = self.covered & signs.outside(thresholds);
+        let inside = self.covered & signs.inside(thresholds) & !outside;
+        let crossing = self.covered & signs.certain(thresholds) & !outside & !inside;
         [outside, inside, crossing]
     }
 

@@ -7,7 +7,7 @@ use crate::math::{Real, Segment, Vec3};
 use fearless_simd::prelude::*;
 use fearless_simd::{Level, f32x8, f32x16, f64x4, mask64x4};
 
-/// Makes registers of four numbers, at a vector width.
+/// Makes registers of four `f64`, at a vector width.
 #[derive(Clone, Copy)]
 pub(super) struct Quad<S>(pub(super) S);
 
@@ -21,7 +21,7 @@ impl<S: Simd> Width<4> for Quad<S> {
 }
 
 impl<S: Simd> Quad<S> {
-    /// The same number in each lane.
+    /// The same value in each lane.
     #[inline(always)]
     pub(super) fn splat(self, value: f64) -> f64x4<S> {
         value.simd_into(self.0)

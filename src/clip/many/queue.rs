@@ -2,8 +2,7 @@
 
 use crate::simd::compaction::PLACES;
 
-/// Segments in a block, which are clipped together: what is written about them stays in the first
-/// cache.
+/// Segments in a block, which are clipped together: their answers stay in the first cache.
 pub(super) const BLOCK: usize = 256;
 
 /// Capacity of a queue: more than a block fills, as items that are offered and not taken are

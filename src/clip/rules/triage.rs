@@ -22,7 +22,7 @@ pub(crate) struct Extremes<V> {
 }
 
 impl<V: MinMax> Extremes<V> {
-    /// Of one face.
+    /// The extremes of one face.
     #[inline(always)]
     pub(crate) fn new(a: V, b: V) -> Self {
         Self {
@@ -44,12 +44,12 @@ impl<V: MinMax> Extremes<V> {
 
 /// The extremes of near and far, and of the sides.
 #[derive(Clone, Copy)]
-pub(crate) struct Triage<F> {
+pub(crate) struct Signs<F> {
     pub(crate) depth: Extremes<F>,
     pub(crate) side: Extremes<F>,
 }
 
-impl<F: Compare> Triage<F> {
+impl<F: Compare> Signs<F> {
     /// Whether some face, of those in a lane, proves that the segment is outside.
     #[inline(always)]
     pub(crate) fn outside(&self, (depth, side): (F, F)) -> F::Mask {

@@ -107,7 +107,7 @@ impl<S: Simd, V: SimdFloat<S, Element: Real> + MinMax> Crossings<S, V> {
             smallest.add::<S>(a, b);
         }
         let size = frustum.size(ends);
-        // Of two parameters together.
+        // Two parameters together may be off by twice as much.
         let error = frustum.error(&size, one / smallest.difference);
         let error = error + error;
         let overlap = entry.first - exit.first;

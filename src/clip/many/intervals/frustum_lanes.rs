@@ -50,7 +50,7 @@ impl<S: Simd, T: Real, V: SimdFloat<S, Element = T>> FrustumLanes<S, V> {
         let [a, b, c, d] = &planes.sides;
         let beyond = filter.certain_beyond();
         let up = |v: f64| T::from_f64(v).next_up();
-        // The bits of the n-th least number are n.
+        // The n-th smallest positive number has the bits of n.
         let bits = |n: usize| splat((0..n).fold(T::ZERO, |v, _| v.next_up())).to_bits();
         // Covers the rounding of each sum of two.
         let more = T::ONE + T::from_f64(4.0 * T::UNIT_ROUNDOFF);
@@ -111,7 +111,7 @@ impl<S: Simd, T: Real, V: SimdFloat<S, Element = T>> FrustumLanes<S, V> {
         size.threshold.mul_add(scale, self.rounding)
     }
 
-    /// Whether the error bound holds: false at sizes near the largest number, and for NaN.
+    /// Whether the error bound holds: false at sizes near the largest finite value, and for NaN.
     #[inline(always)]
     pub(super) fn covers(&self, size: &Size<V>) -> V::Mask {
         size.sum.simd_lt(self.limit)

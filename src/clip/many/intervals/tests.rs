@@ -138,7 +138,7 @@ fn sixteen_at_a_time_give_the_same() {
     }
 }
 
-/// Numbers without a pattern, always the same, in -1..1.
+/// Pseudo-random values in -1..1, always the same.
 fn noise() -> impl FnMut() -> f64 {
     let mut state = 88_172_645_463_325_252_u64;
     move || {
@@ -207,7 +207,7 @@ fn the_first_segment_that_is_not_finite_is_the_error() {
     assert_eq!(done, Ok(()));
 }
 
-/// Sizes near the largest and the least numbers.
+/// Sizes near the largest and the smallest values.
 #[test]
 fn extreme_sizes_are_as_alone() {
     let mut next = noise();
@@ -241,21 +241,21 @@ fn a_parameter_between_two_f32_is_found_precisely() {
     assert_eq!(t0, 0.5 + 2.0 * f32::EPSILON / 2.0);
 }
 
-/// Up to the largest numbers, and down to the least.
+/// Up to the largest values, and down to the smallest.
 #[test]
 fn every_magnitude_gives_what_each_gives_alone() {
     fn check<T: Real>(exponents: std::ops::Range<i32>) {
         let prepared = Prepared::new(&frustum());
         let mut next = noise();
         for exponent in exponents.step_by(3) {
-            let mut number = || {
+            let mut coordinate = || {
                 let near = 3.0 * next();
                 match next() > 0.0 {
                     true => near * 2.0_f64.powi(exponent),
                     false => near,
                 }
             };
-            let mut point = || [number(), number(), number()].map(T::from_f64);
+            let mut point = || [coordinate(), coordinate(), coordinate()].map(T::from_f64);
             let segments: Vec<_> = (0..64).map(|_| Segment::new(point(), point())).collect();
             for level in levels() {
                 compare(level, &prepared, &segments);
