@@ -37,8 +37,8 @@ fn lattice<T: Real>(random: &mut Random) -> Vec3<T> {
     Vec3::new(c(), c(), c())
 }
 
-/// Shapes whose plain coefficients are exact, and on whose lattice plain
-/// boundary values are, too.
+/// Shapes whose plain coefficients are exact, as are the plain
+/// boundary values of lattice points.
 fn dyadic_shapes() -> Vec<Shape> {
     let finite = |near, far| Shape::Finite { near, far };
     vec![
@@ -78,8 +78,8 @@ fn turned() -> Pose {
     Pose::new(Vec3::new(0.5, -1.0, 2.0), axes)
 }
 
-/// A frustum at a turned pose, and the point of the world that is to it what
-/// `p` is to the shape: both exact.
+/// A frustum at a turned pose, and the map from points of the shape to points of the world: both
+/// exact.
 fn turn(shape: Shape) -> (Frustum, impl Fn(Vec3<f64>) -> Vec3<f64>) {
     let scaled = |e: EndRect| {
         let [left, right, bottom, top] = e.rect.to_array().map(|c| 625.0 * c);
@@ -155,7 +155,7 @@ fn exact_tiers_of_all_algorithms_give_the_same_bits_in_a_turned_frame() {
     }
 }
 
-/// Where every boundary value is exact, so are equal quotients: then the
+/// Where every boundary value is exact, equal quotients round alike: then the
 /// parametric algorithms are right even in plain arithmetic.
 fn plain_is_right_on_the_lattice<T: Real>() {
     let mut random = Random::new(&[3]);
@@ -280,7 +280,7 @@ fn extreme_frusta() -> Vec<Frustum> {
     frusta
 }
 
-fn extremes_give_numbers<T: Real>() {
+fn extremes_give_finite_results<T: Real>() {
     let extreme = |random: &mut Random| loop {
         let v = T::from_f64(random.pick(&EXTREMES));
         if v.is_finite() {
@@ -319,8 +319,8 @@ fn extremes_give_numbers<T: Real>() {
 
 #[test]
 fn plain_results_are_finite_on_any_finite_input() {
-    extremes_give_numbers::<f64>();
-    extremes_give_numbers::<f32>();
+    extremes_give_finite_results::<f64>();
+    extremes_give_finite_results::<f32>();
 }
 
 #[test]
@@ -329,7 +329,7 @@ fn a_coordinate_that_is_not_finite_is_an_error_that_names_it() {
     let all = || plain::<f64>().into_iter().chain(exact(Accuracy::Fast));
     for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
         for at in 0..6 {
-            // Far outside, so that a clipper that looks later would say so.
+            // Far outside, so that a clipper that checks later would return `Outside`.
             let mut c = [100.0; 6];
             c[at] = bad;
             let s = Segment::new([c[0], c[1], c[2]], [c[3], c[4], c[5]]);
@@ -348,7 +348,7 @@ fn a_coordinate_that_is_not_finite_is_an_error_that_names_it() {
 }
 
 #[test]
-fn a_huge_segment_is_clipped_where_it_should_be() {
+fn a_huge_segment_is_clipped_at_the_right_points() {
     let frustum = Frustum::new(Pose::IDENTITY, dyadic_shapes()[2]).unwrap();
     let s = Segment::new([0.0, 0.0, f64::MAX], [0.0, 0.0, -f64::MAX]);
     for clipper in plain::<f64>() {

@@ -1,9 +1,10 @@
-//! Whether a point is in a frustum, against the oracle.
+//! Whether a point is in a frustum, compared with the oracle.
+
 use frusta::oracle::Oracle;
 use frusta::samples::{Family, Random};
 use frusta::{Accuracy, Axis, End, Frustum, NonFinite, Real, Segment, Vec3};
 
-/// What was seen, so that a test that looks at nothing fails.
+/// How many points were compared, so that a test that compares too few fails.
 #[derive(Debug, Default)]
 struct Seen {
     inside: u32,
@@ -50,25 +51,25 @@ fn off<T: Real>(value: T, ulps: i64) -> T {
 }
 
 #[test]
-fn as_the_oracle_says_next_to_every_feature() {
+fn contains_agrees_with_the_oracle_next_to_every_feature() {
     let mut random = Random::new(&[31]);
-    let (mut double, mut single) = (Seen::default(), Seen::default());
+    let (mut seen_f64, mut seen_f32) = (Seen::default(), Seen::default());
     for family in Family::ALL {
         for index in 0..200 {
             let (frustum, segment) = family.case(5, index);
-            check(&frustum, &segment, &mut random, &mut double);
+            check(&frustum, &segment, &mut random, &mut seen_f64);
             if let Some((frustum, segment)) = family.case_f32(5, index) {
-                check(&frustum, &segment, &mut random, &mut single);
+                check(&frustum, &segment, &mut random, &mut seen_f32);
             }
         }
     }
-    for seen in [double, single] {
+    for seen in [seen_f64, seen_f32] {
         assert!(seen.inside > 10_000 && seen.outside > 10_000, "{seen:?}");
     }
 }
 
 #[test]
-fn a_point_that_is_not_finite_is_named() {
+fn the_error_names_a_coordinate_that_is_not_finite() {
     let (frustum, _) = Family::ALL[0].case(1, 0);
     let error = frustum
         .contains([0.0, f64::INFINITY, f64::NAN])

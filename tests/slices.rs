@@ -1,5 +1,5 @@
-//! Slices of segments, as a caller sees them. That every clip has the bits of the
-//! segment alone, at every vector width, is tested in `src/clip/slice/tests.rs`.
+//! Slices of segments through the public interface. That every clip has the bits of the
+//! segment alone, at every vector width, is tested in `src/clip/many/tests.rs`.
 
 use frusta::samples::Family;
 use frusta::{
@@ -45,7 +45,7 @@ fn every_clipper_clips_slices_of_every_length_as_it_clips_segments() {
             let mut clips = vec![SegmentClip::OUTSIDE; 3];
             for length in (0..20).chain([63, 64]) {
                 let segments = &all[all.len() - length..];
-                let (mut counts, mut single) = <(StageCounts, StageCounts)>::default();
+                let (mut counts, mut alone) = <(StageCounts, StageCounts)>::default();
                 let done =
                     clipper.clip_segments_counted(&frustum, segments, &mut clips, &mut counts);
                 done.expect("finite");
@@ -53,7 +53,7 @@ fn every_clipper_clips_slices_of_every_length_as_it_clips_segments() {
                     .iter()
                     .map(|s| {
                         clipper
-                            .clip_segment_counted(&frustum, s, &mut single)
+                            .clip_segment_counted(&frustum, s, &mut alone)
                             .expect("finite")
                     })
                     .collect();
@@ -63,14 +63,14 @@ fn every_clipper_clips_slices_of_every_length_as_it_clips_segments() {
                     "{} on {length} of {family}",
                     clipper.name()
                 );
-                assert_eq!(counts, single, "{} on {length} of {family}", clipper.name());
+                assert_eq!(counts, alone, "{} on {length} of {family}", clipper.name());
             }
         }
     }
 }
 
 #[test]
-fn a_number_that_is_not_finite_is_named_with_its_place_and_nothing_is_given() {
+fn a_coordinate_that_is_not_finite_is_an_error_with_its_index_and_there_are_no_clips() {
     let (frustum, all) = scene(Family::Random, 600);
     for clipper in clippers() {
         for (index, later) in [(0, 1), (1, 599), (299, 300), (598, 599)] {

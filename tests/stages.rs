@@ -1,4 +1,4 @@
-//! Each stage of the predicates is reached, and ends with what it is for.
+//! Each stage of the predicates is reached, and decides the cases that it is for.
 
 use frusta::samples::{Placement, Solid};
 use frusta::{
@@ -18,7 +18,7 @@ fn symmetric() -> Frustum {
     Placement::IDENTITY.place(&Solid::SYMMETRIC).unwrap()
 }
 
-/// A frustum whose slopes, thirds, no double holds: without a lattice.
+/// A frustum whose slopes are thirds, which no `f64` represents: it has no lattice.
 fn thirds() -> Frustum {
     let shape = Shape::Finite {
         near: EndRect::new(1.0, -1.0, 1.0, -1.0, 1.0),
@@ -28,15 +28,15 @@ fn thirds() -> Frustum {
 }
 
 #[test]
-fn the_filter_settles_what_is_clear() {
+fn the_filter_decides_clear_cases() {
     let s = Segment::new([0.1, 0.2, 10.3], [70.7, 1.1, 20.9]);
     let (class, counts) = counts(&symmetric(), &s, Accuracy::Fast);
     assert_eq!((class, counts), (Class::Cross, StageCounts::default()));
 }
 
-/// In an edge and through a vertex, without any error to bound.
+/// In an edge and through a vertex, without any error.
 #[test]
-fn the_lattice_settles_touching_as_fast() {
+fn the_lattice_decides_touches() {
     for (s, expected) in [
         (
             Segment::new([8.0, -2.0, 8.0], [40.0, 20.0, 40.0]),
@@ -59,9 +59,9 @@ fn the_lattice_settles_touching_as_fast() {
     }
 }
 
-/// An ulp off a side, below what plain arithmetic can tell.
+/// An ulp off a side, which plain arithmetic cannot distinguish.
 #[test]
-fn double_double_settles_near_misses() {
+fn double_double_decides_near_misses() {
     // On the side at z = 2.5, x is 1.5.
     for (x, other, expected) in [
         (1.5_f64.next_down(), [0.0, 0.1, 2.0], Class::Inside),
@@ -76,9 +76,9 @@ fn double_double_settles_near_misses() {
     }
 }
 
-/// A point exactly on a side, which no approximation can prove.
+/// A point exactly on a side: no approximation proves that.
 #[test]
-fn expansions_settle_exact_zeros_off_the_lattice() {
+fn expansions_decide_exact_zeros_off_the_lattice() {
     let s = Segment::new([1.5, 0.3, 2.5], [5.0, 0.3, 2.6]);
     let (class, counts) = counts(&thirds(), &s, Accuracy::Fast);
     assert_eq!(class, Class::Touch);
@@ -92,7 +92,7 @@ fn expansions_settle_exact_zeros_off_the_lattice() {
 
 /// The same scaled by a power of two, so that products underflow or overflow.
 #[test]
-fn integers_settle_what_leaves_the_range() {
+fn integers_decide_values_beyond_the_range() {
     for scale in [2.0_f64.powi(-560), 2.0_f64.powi(560)] {
         let end =
             |z: f64, w: f64| EndRect::new(z * scale, -w * scale, w * scale, -w * scale, w * scale);
@@ -114,8 +114,8 @@ fn integers_settle_what_leaves_the_range() {
     }
 }
 
-/// Rounding needs integers where the exact coordinate is half way between two
-/// doubles; deciding does not.
+/// Rounding needs integers where the exact coordinate is half-way between two
+/// `f64`; decisions do not.
 #[test]
 fn nearest_needs_integers_for_ties() {
     // Crosses x = z at the middle; y there is 1 + 2^-53.
@@ -126,7 +126,7 @@ fn nearest_needs_integers_for_ties() {
     assert!(nearest.integers > 0, "{nearest:?}");
 }
 
-/// Boxes have faces at zero, where no bound of an error proves a sign.
+/// Boxes have faces at zero, where no error bound proves a sign.
 #[test]
 fn a_face_at_zero_needs_no_integers() {
     let unit_box = Shape::Finite {
@@ -147,7 +147,7 @@ fn a_face_at_zero_needs_no_integers() {
     }
 }
 
-/// All of them ask the same predicates; in plain arithmetic there are none.
+/// All exact clippers use the same predicates; plain arithmetic has no predicates.
 #[test]
 fn every_exact_clipper_counts_and_no_plain_one() {
     use LiangBarskyVariant::{Textbook, Tuned};

@@ -1,4 +1,4 @@
-//! Slices made of a case's segment and of variants of it, against single calls.
+//! Slices made of a case's segment and of variants of it, compared with single calls.
 
 use crate::check::bits;
 use frusta::{
@@ -6,7 +6,7 @@ use frusta::{
     SegmentClipper, StageCounts, Vec3, VwProjection,
 };
 
-/// Longer than what is clipped together, and no multiple of any vector's width.
+/// Longer than a block, and not a multiple of any vector width.
 const LONG: usize = 300;
 
 /// V/W in every arithmetic, on slices of lengths that the case chooses.
@@ -19,7 +19,7 @@ pub(crate) fn check<T: Real>(frustum: &Frustum, segment: &Segment<T>) {
         let length = 1 + chosen % 9;
         expected.compare(length, |_| 0);
         expected.compare(length, |i| (i + chosen) % 8);
-        // The other accuracies clip one by one what takes time.
+        // With the other accuracies most of the time is spent on segments one by one.
         let in_lanes = matches!(
             clipper.arithmetic,
             Arithmetic::Plain | Arithmetic::Exact(Accuracy::Fast)
@@ -30,18 +30,18 @@ pub(crate) fn check<T: Real>(frustum: &Frustum, segment: &Segment<T>) {
     }
 }
 
-/// Any number, the same for the same segment.
+/// An arbitrary number, the same for the same segment.
 fn chosen<T: Real>(segment: &Segment<T>) -> usize {
     let Segment { start, end } = segment.to_f64();
-    let numbers = [start, end].into_iter().flat_map(Vec3::to_array);
-    let mixed = numbers.fold(0_u64, |mixed, v| {
+    let coordinates = [start, end].into_iter().flat_map(Vec3::to_array);
+    let mixed = coordinates.fold(0_u64, |mixed, v| {
         (mixed ^ v.to_bits()).wrapping_mul(0x9e37_79b9_7f4a_7c15)
     });
     (mixed >> 40) as usize
 }
 
 /// The segment, its reverse, parts of it, longer ones, beside it, a point: inside,
-/// outside and crossing ones next to each other, as far as one segment tells.
+/// outside and crossing ones next to each other, as far as one segment allows.
 fn variants<T: Real>(segment: &Segment<T>) -> [Segment<T>; 8] {
     let Segment { start, end } = segment.to_f64();
     let d = end - start;
@@ -96,34 +96,34 @@ impl<'a, T: Real> Expected<'a, T> {
     fn compare(&self, length: usize, which: impl Fn(usize) -> usize) {
         let order: Vec<&Single<T>> = (0..length).map(|i| &self.singles[which(i)]).collect();
         let segments: Vec<_> = order.iter().map(|single| single.segment).collect();
-        let said = || format!("{:?}\n{:?}\n{segments:?}", self.clipper, self.frustum);
+        let context = || format!("{:?}\n{:?}\n{segments:?}", self.clipper, self.frustum);
         let (mut clips, mut counts) = (vec![SegmentClip::OUTSIDE], StageCounts::default());
         let done =
             self.clipper
                 .clip_segments_counted(self.frustum, &segments, &mut clips, &mut counts);
-        let refusal = order.iter().enumerate().find_map(|(index, single)| {
+        let error = order.iter().enumerate().find_map(|(index, single)| {
             let found = single.answer.as_ref().err()?.clone();
             Some(NonFiniteAt { index, found })
         });
-        if let Some(refusal) = refusal {
+        if let Some(error) = error {
             assert_eq!(
                 format!("{done:?}"),
-                format!("{:?}", Err::<(), _>(refusal)),
+                format!("{:?}", Err::<(), _>(error)),
                 "{}",
-                said()
+                context()
             );
-            assert!(clips.is_empty(), "{}", said());
+            assert!(clips.is_empty(), "{}", context());
             return;
         }
         assert!(
             done.is_ok() && clips.len() == length,
             "{done:?}\n{}",
-            said()
+            context()
         );
         for (i, (clip, single)) in clips.iter().zip(&order).enumerate() {
-            assert!(single.answer == Ok(bits(clip)), "{i}: {clip:?}\n{}", said());
+            assert!(single.answer == Ok(bits(clip)), "{i}: {clip:?}\n{}", context());
         }
         let expected: StageCounts = order.iter().map(|single| single.counts).sum();
-        assert_eq!(counts, expected, "{}", said());
+        assert_eq!(counts, expected, "{}", context());
     }
 }

@@ -6,7 +6,7 @@
 //!
 //! # Idea
 //! ```text
-//! a code for each end: a bit for each face that the end is strictly outside
+//! a code for each end: a bit for each face that the end is strictly outside of
 //! codes share a bit: outside.  both empty: inside
 //! while a code is not empty:
 //!     take an end with a bit, and the first face in its code
@@ -18,21 +18,22 @@
 //! 1. A moved end is always computed from the original ends, so that errors do
 //!    not add up, and it is compared with the other end's *first* code: being
 //!    beyond a face through which the other end leaves empties the segment.
-//! 2. A moved end is coded only by faces in its first code that it has not
+//! 2. The code of a moved end has only faces of its first code that it has not
 //!    been moved to. So there are at most six rounds, whatever rounding does;
-//!    the textbook's loop is known to hang.
+//!    the textbook's loop can hang.
 //!
 //! # Complexity
 //! Constant: at most six rounds with a division and six values each. Cheap if
-//! most segments are wholly outside or inside, dear if most are clipped.
+//! most segments are wholly outside or inside, expensive if most are clipped.
 //!
 //! # Degenerate input
-//! Zero values set no bit: touching is a hit. The ends of a segment of zero
-//! length have one code, so it is rejected or accepted at once.
+//! Zero values set no bit: touching is a hit. Both ends of a segment of zero
+//! length have the same code, so it is rejected or accepted at once.
 
 use super::plain::{self, Found, InFrame};
 use super::predicates::{Predicates, Role, Span};
 use super::result::{Accuracy, Arithmetic, SegmentClip, StageCounts};
+use super::whole::{inside, outside};
 use super::{SegmentClipper, exact};
 use crate::frustum::{Face, FaceSet, Frustum, Layout, PlainFrustum};
 use crate::math::{NonFinite, Real, Segment, Vec3};
@@ -41,12 +42,12 @@ use std::cmp::Ordering;
 /// Clips by out-codes in the computing frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct CohenSutherland {
-    /// What it computes with.
+    /// The arithmetic of its decisions.
     pub arithmetic: Arithmetic,
 }
 
 impl CohenSutherland {
-    /// In floating point of the segment's own type.
+    /// Decisions in floating point of the segment's own type.
     #[must_use]
     pub const fn plain() -> Self {
         Self {
@@ -54,7 +55,7 @@ impl CohenSutherland {
         }
     }
 
-    /// With exact decisions.
+    /// Exact decisions.
     #[must_use]
     pub const fn exact(accuracy: Accuracy) -> Self {
         Self {
@@ -116,11 +117,11 @@ impl InFrame for Plain {
         let b = values::<T, L>(f, q);
         let first = [code(&a, out), code(&b, out)];
         if first[0] & first[1] != 0 {
-            return plain::outside();
+            return outside();
         }
         let mut touched = [code(&a, on), code(&b, on)];
         if first[0] | first[1] | touched[0] | touched[1] == 0 {
-            return plain::inside(segment);
+            return inside(segment);
         }
         let coplanar = touched[0] & touched[1];
         let d = q - p;
@@ -139,14 +140,14 @@ impl InFrame for Plain {
                 let v = values::<T, L>(f, d.times_plus(t[end], p));
                 let anew = code(&v, out);
                 if anew & first[1 - end] != 0 {
-                    return plain::outside();
+                    return outside();
                 }
                 code_now = anew & left;
                 touched[end] = code(&v, on) | 1 << i;
             }
         }
         if t[0] > t[1] {
-            return plain::outside();
+            return outside();
         }
         Found {
             t,
@@ -176,9 +177,9 @@ pub(super) fn span(p: &mut impl Predicates) -> Option<Span> {
     Some(Span { enter, leave })
 }
 
-/// Moves an end from face to face until its code is empty; `None` if it comes
-/// beyond a face in the other end's code. `outside` is the order of a point to
-/// the crossings of the end's own faces where it is outside them.
+/// Moves an end from face to face until its code is empty; `None` if it moves
+/// beyond a face in the other end's code. `outside` is the order of a point that is outside one of
+/// the end's own faces to that face's crossing.
 fn move_end(
     p: &mut impl Predicates,
     own: FaceSet,

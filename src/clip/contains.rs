@@ -7,15 +7,15 @@ use crate::math::{End, NonFinite, Real, Segment, Vec3};
 use std::cmp::Ordering;
 
 impl Frustum {
-    /// Whether a point is in the frustum, a closed set: exactly, with points on
-    /// its surface inside.
+    /// Whether a point is in the frustum, decided exactly. The frustum is a closed set: points on
+    /// its surface are in it.
     ///
     /// ```
     /// use frusta::{EndRect, Frustum, Pose, Shape};
     /// # let near = EndRect::new(1.0, -1.0, 1.0, -1.0, 1.0);
     /// # let far = EndRect::new(3.0, -3.0, 3.0, -3.0, 3.0);
     /// # let frustum = Frustum::new(Pose::IDENTITY, Shape::Finite { near, far })?;
-    /// // A vertex, and the next double beyond it.
+    /// // A vertex, and the next `f64` beyond it.
     /// assert!(frustum.contains([3.0, 3.0, 3.0])?);
     /// assert!(!frustum.contains([3.0_f64.next_up(), 3.0, 3.0])?);
     /// assert!(frustum.contains([0.5_f32, 0.0, f32::NAN]).is_err());

@@ -13,23 +13,24 @@
 //!     b negative: leaving  at t = a / (a - b), t1 = min(t1, t)
 //! t0 > t1: outside
 //! ```
-//! This is the sound variant of clipping by six planes; the unsound one, as
+//! This is the sound variant of clipping by six planes; the unsound one, which is
 //! often described, is [`SixPlanes`](super::SixPlanes).
 //!
 //! # Deviations
-//! The signs at both ends say whether a plane is entered or left, so that
-//! nothing is divided where nothing is crossed.
+//! The signs at both ends decide whether a plane is entered or left, so that
+//! only planes that are crossed need a division.
 //!
 //! # Complexity
 //! Constant: 12 plane values at most, a division for each plane crossed.
 //!
 //! # Degenerate input
 //! A segment parallel to a plane has two values of one sign there: it is
-//! rejected or not bounded. A segment of zero length likewise, by every plane.
+//! rejected or not bounded. The same holds for a segment of zero length and every plane.
 
 use super::plain::{self, Found};
 use super::predicates::{Predicates, Role, Span};
 use super::result::{Accuracy, Arithmetic, SegmentClip, StageCounts};
+use super::whole::outside;
 use super::{SegmentClipper, exact};
 use crate::frustum::{Frustum, PlainFrustum};
 use crate::math::{NonFinite, Real, Segment};
@@ -37,12 +38,12 @@ use crate::math::{NonFinite, Real, Segment};
 /// Clips by entering and leaving parameters against six oriented planes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct CyrusBeck {
-    /// What it computes with.
+    /// The arithmetic of its decisions.
     pub arithmetic: Arithmetic,
 }
 
 impl CyrusBeck {
-    /// In floating point of the segment's own type.
+    /// Decisions in floating point of the segment's own type.
     #[must_use]
     pub const fn plain() -> Self {
         Self {
@@ -50,7 +51,7 @@ impl CyrusBeck {
         }
     }
 
-    /// With exact decisions.
+    /// Exact decisions.
     #[must_use]
     pub const fn exact(accuracy: Accuracy) -> Self {
         Self {
@@ -88,11 +89,11 @@ pub(crate) fn clip<T: Real>(f: &PlainFrustum<T>, segment: &Segment<T>) -> Segmen
         let plane = &f.planes[face as usize];
         let (a, b) = (plane.value(segment.start), plane.value(segment.end));
         if !found.face_by_signs(face, a, b) {
-            return plain::outside();
+            return outside();
         }
     }
     if found.t[0] > found.t[1] {
-        return plain::outside();
+        return outside();
     }
     found.build(segment)
 }

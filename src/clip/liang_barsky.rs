@@ -6,7 +6,7 @@
 //! frustum's own boundary functions.
 //!
 //! # Idea
-//! A boundary function is a at the start, b at the end, so inside is where
+//! A boundary function is a at the start and b at the end. A point is inside where
 //! `p t <= q` with `p = a - b`, `q = a`.
 //! ```text
 //! for each side:
@@ -17,11 +17,11 @@
 //! ```
 //! That is [`LiangBarskyVariant::Textbook`]: a division for each side that is
 //! not parallel. [`LiangBarskyVariant::Tuned`] looks at the signs of a and b
-//! first: both negative is outside, both positive is no bound, and only what
-//! remains is divided.
+//! first: both negative is outside, both positive is no bound, and only the
+//! remaining sides need a division.
 //!
 //! # Complexity
-//! Constant: six divisions at most. Values are computed side by side, so an
+//! Constant: six divisions at most. Sides are taken one after another, so an
 //! early rejection saves the rest.
 //!
 //! # Degenerate input
@@ -32,18 +32,20 @@
 use super::plain::{self, Found, InFrame};
 use super::predicates::{Predicates, Role, Span};
 use super::result::{Accuracy, Arithmetic, SegmentClip, StageCounts};
+use super::whole::outside;
 use super::{SegmentClipper, exact};
 use crate::frustum::{Face, Frustum, Layout, PlainFrustum};
 use crate::math::{NonFinite, Real, Segment};
 use std::cmp::Ordering;
 use std::marker::PhantomData;
 
-/// How a side is taken in.
+/// When a side's crossing parameter is computed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum LiangBarskyVariant {
-    /// A division for each side that is not parallel.
+    /// One division for each side that the segment is not parallel to.
     Textbook,
-    /// A division only where the signs ask for one.
+    /// One division for each side that the segment crosses, by the signs of the values.
     #[default]
     Tuned,
 }
@@ -51,14 +53,14 @@ pub enum LiangBarskyVariant {
 /// Clips by shrinking the parameter interval side by side.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct LiangBarsky {
-    /// What it computes with.
+    /// The arithmetic of its decisions.
     pub arithmetic: Arithmetic,
-    /// How a side is taken in.
+    /// When a side's crossing parameter is computed.
     pub variant: LiangBarskyVariant,
 }
 
 impl LiangBarsky {
-    /// In floating point of the segment's own type.
+    /// Decisions in floating point of the segment's own type.
     #[must_use]
     pub const fn plain(variant: LiangBarskyVariant) -> Self {
         Self {
@@ -67,7 +69,7 @@ impl LiangBarsky {
         }
     }
 
-    /// With exact decisions.
+    /// Exact decisions.
     #[must_use]
     pub const fn exact(variant: LiangBarskyVariant, accuracy: Accuracy) -> Self {
         Self {
@@ -109,7 +111,7 @@ impl<T: Real> SegmentClipper<T> for LiangBarsky {
     }
 }
 
-/// Takes in a side by its values at both ends.
+/// How a side shrinks the interval, by its values at both ends.
 pub(crate) trait Side {
     /// False if the segment is outside.
     fn side<T: Real>(found: &mut Found<T>, face: Face, a: T, b: T) -> bool;
@@ -164,10 +166,10 @@ impl<S: Side> InFrame for Plain<S> {
         let q = f.to_frame(segment.end);
         let ([wp, fp], [wq, fq]) = (f.depths::<L>(p.z), f.depths::<L>(q.z));
         if !S::side(&mut found, Face::Near, wp, wq) {
-            return plain::outside();
+            return outside();
         }
         if L::FAR && !S::side(&mut found, Face::Far, fp, fq) {
-            return plain::outside();
+            return outside();
         }
         for (i, low, high, cp, cq) in [
             (0, Face::Left, Face::Right, p.x, q.x),
@@ -176,11 +178,11 @@ impl<S: Side> InFrame for Plain<S> {
             let [lp, hp] = f.sides::<L>(i, wp, cp);
             let [lq, hq] = f.sides::<L>(i, wq, cq);
             if !S::side(&mut found, low, lp, lq) || !S::side(&mut found, high, hp, hq) {
-                return plain::outside();
+                return outside();
             }
         }
         if found.t[0] > found.t[1] {
-            return plain::outside();
+            return outside();
         }
         found.build(segment)
     }

@@ -1,4 +1,39 @@
-//! Clipping segments: one file an algorithm, behind one trait.
+//! Clipping segments by a [`Frustum`]: which part of a segment is inside, and through which faces
+//! it enters and leaves.
+//!
+//! | input | output | call |
+//! |---|---|---|
+//! | one segment | class, points, parameters, face sets | [`Frustum::clip_segment`] |
+//! | one segment | the same, with a choice of [`Accuracy`] | [`Frustum::clip_segment_with`] |
+//! | a slice | the same for each segment, in half the time or less | [`Frustum::clip_segments`] |
+//! | a slice or arrays | class and parameters only, fastest | [`Culler::clip_intervals`] |
+//! | any of the first three | by a chosen algorithm | [`SegmentClipper`] |
+//!
+//! All but the last decide exactly, and give the same bits for the same segment.
+//! [`SegmentClipper`] is for comparing algorithms, in exact or in plain arithmetic: in exact
+//! arithmetic all of them give the same bits, too.
+//!
+//! Segments and frusta are closed sets: a segment that touches the frustum is not outside.
+//!
+//! ```
+//! use frusta::{Accuracy, Class, EndRect, Face, Frustum, Pose, Segment, Shape};
+//! let near = EndRect::new(1.0, -1.0, 1.0, -1.0, 1.0);
+//! let far = EndRect::new(3.0, -3.0, 3.0, -3.0, 3.0);
+//! let frustum = Frustum::new(Pose::IDENTITY, Shape::Finite { near, far })?;
+//! let edge = Segment::new([0.0, 0.0, 2.0], [4.0, 0.0, 2.0]);
+//!
+//! let clip = frustum.clip_segment(&edge)?;
+//! let exit = clip.part.unwrap().exit;
+//! assert_eq!((clip.class, exit.t, exit.faces), (Class::Cross, 0.5, Face::Right.into()));
+//!
+//! let mut clips = Vec::new();
+//! frustum.clip_segments(&[edge, edge.reversed()], Accuracy::Fast, &mut clips)?;
+//! assert_eq!(clips[0], clip);
+//! assert_eq!(clips[1].part.unwrap().entry.point, exit.point);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! [`Culler::clip_intervals`]: crate::Culler::clip_intervals
 
 pub(crate) mod cohen_sutherland;
 mod contains;
@@ -9,8 +44,10 @@ pub(crate) mod many;
 pub(crate) mod plain;
 mod predicates;
 mod result;
+mod rules;
 pub(crate) mod six_planes;
 pub(crate) mod vw;
+mod whole;
 
 pub use cohen_sutherland::CohenSutherland;
 pub use cyrus_beck::CyrusBeck;
@@ -25,8 +62,9 @@ use crate::math::{NonFinite, NonFiniteAt, Real, Segment};
 
 /// An algorithm that clips segments by frusta.
 ///
-/// All implementations take the same input and return the same result, so that
-/// a caller can swap them, also behind `dyn SegmentClipper<f64>`.
+/// All implementations take the same input and return results of the same form, so that
+/// a caller can exchange them, also behind `dyn SegmentClipper<f64>`. In exact arithmetic the
+/// results are the same, too.
 ///
 /// ```
 /// use frusta::{Accuracy, Class, CyrusBeck, EndRect, Frustum, Pose, Segment, SegmentClipper};
@@ -64,8 +102,7 @@ pub trait SegmentClipper<T: Real> {
     }
 
     /// As [`SegmentClipper::clip_segment`], and adds to `counts` which stages of
-    /// the exact predicates were needed. An algorithm that has no such stages,
-    /// as all in plain arithmetic, adds nothing.
+    /// the exact predicates were needed. Plain arithmetic has no such stages and adds nothing.
     ///
     /// # Errors
     /// A coordinate of the segment is infinite or NaN.
@@ -76,12 +113,12 @@ pub trait SegmentClipper<T: Real> {
         counts: &mut StageCounts,
     ) -> Result<SegmentClip<T>, NonFinite>;
 
-    /// Clips a slice of segments: `clips` is emptied, then holds one clip a segment,
-    /// each the same to the bit as [`SegmentClipper::clip_segment`] gives.
+    /// Clips a slice of segments: `clips` is cleared, then gets one clip for each segment, in
+    /// order, with the same bits as from [`SegmentClipper::clip_segment`].
     ///
     /// [`VwProjection`] clips several at a time, in vector registers of the width
     /// that this processor has: two to three times as fast as one by one. A buffer
-    /// that is used again is not allocated again; pieces of some thousand segments
+    /// that is large enough is not allocated again; pieces of some thousand segments
     /// keep it in the processor's caches.
     ///
     /// # Errors
@@ -97,7 +134,7 @@ pub trait SegmentClipper<T: Real> {
     }
 
     /// As [`SegmentClipper::clip_segments`], and adds to `counts` what
-    /// [`SegmentClipper::clip_segment_counted`] would for each.
+    /// [`SegmentClipper::clip_segment_counted`] would add for each segment.
     ///
     /// # Errors
     /// A coordinate of a segment is infinite or NaN; `clips` is empty then.
@@ -125,8 +162,8 @@ pub trait SegmentClipper<T: Real> {
 }
 
 impl Frustum {
-    /// The part of a segment that is in the frustum: class and face sets exact,
-    /// points to [`Accuracy::Fast`].
+    /// The part of a segment that is in the frustum. Class and face sets are exact; points and
+    /// parameters have [`Accuracy::Fast`].
     ///
     /// ```
     /// use frusta::{Class, EndRect, Face, Frustum, Pose, Segment, Shape};
@@ -150,17 +187,17 @@ impl Frustum {
         self.clip_segment_with(segment, Accuracy::Fast)
     }
 
-    /// As [`Frustum::clip_segment`], with a choice of how exact the points are.
+    /// As [`Frustum::clip_segment`], with a choice of the points' accuracy.
     ///
-    /// [`Accuracy::Inward`] gives points that are in the frustum, where any
-    /// representable one is near; each end's [`PartEnd::inward`] says whether.
+    /// [`Accuracy::Inward`] gives points that are in the frustum, wherever there is a
+    /// representable one nearby; [`PartEnd::inward`] is true if there is.
     ///
     /// ```
     /// use frusta::{Accuracy, EndRect, Frustum, Pose, Segment, Shape};
     /// # let near = EndRect::new(1.0, -1.0, 1.0, -1.0, 1.0);
     /// # let far = EndRect::new(3.0, -3.0, 3.0, -3.0, 3.0);
     /// # let frustum = Frustum::new(Pose::IDENTITY, Shape::Finite { near, far })?;
-    /// // No double holds where this leaves: 1 and two thirds.
+    /// // It leaves at x = 5/3, which no `f64` represents.
     /// let segment = Segment::new([0.0_f64, 0.0, 1.0], [5.0, 0.0, 3.0]);
     /// let nearest = frustum.clip_segment_with(&segment, Accuracy::Nearest)?;
     /// let inward = frustum.clip_segment_with(&segment, Accuracy::Inward)?;
@@ -170,7 +207,7 @@ impl Frustum {
     /// assert!((inward.point.x - 5.0 / 3.0).abs() < 1e-15);
     ///
     /// // The tip of a needle at x = y = 1/3: no representable point near it is
-    /// // inside, so the end is the nearest one, flagged.
+    /// // inside, so the end is the nearest one, and `inward` is false.
     /// let mut pose = Pose::IDENTITY;
     /// pose.axes = [[3.0, 0.0, 0.0], [0.0, 3.0, 0.0], [0.0, 0.0, 1.0]].map(Into::into);
     /// let near = EndRect::new(1.0, 1.0, 1.0, 1.0, 1.0);
@@ -193,8 +230,8 @@ impl Frustum {
         self.clip_segment_counted(segment, accuracy, &mut StageCounts::default())
     }
 
-    /// The parts of a slice of segments: `clips` is emptied, then holds one clip a
-    /// segment, each the same to the bit as [`Frustum::clip_segment_with`] gives, in
+    /// The parts of a slice of segments: `clips` is cleared, then gets one clip for each
+    /// segment, in order, with the same bits as from [`Frustum::clip_segment_with`], in
     /// half the time or less.
     ///
     /// ```
@@ -205,7 +242,7 @@ impl Frustum {
     /// let edges: Vec<Segment<f64>> = (0..1000)
     ///     .map(|i| Segment::new([0.0, 0.0, 2.0], [0.01 * f64::from(i), 0.0, 2.0]))
     ///     .collect();
-    /// // Memory that is used again and again.
+    /// // A buffer for this slice and the next ones.
     /// let mut clips = Vec::new();
     /// frustum.clip_segments(&edges, Accuracy::Fast, &mut clips)?;
     /// let cut = clips.iter().filter(|clip| clip.class == Class::Cross);
@@ -225,7 +262,7 @@ impl Frustum {
     }
 
     /// As [`Frustum::clip_segment_with`], and adds to `counts` which stages of
-    /// the predicates were needed.
+    /// the exact predicates were needed.
     ///
     /// ```
     /// use frusta::{Accuracy, EndRect, Frustum, Pose, Segment, Shape, StageCounts};
@@ -233,7 +270,7 @@ impl Frustum {
     /// # let far = EndRect::new(4.0, -2.0, 2.0, -2.0, 2.0);
     /// # let frustum = Frustum::new(Pose::IDENTITY, Shape::Finite { near, far })?;
     /// let mut counts = StageCounts::default();
-    /// // Clearly inside; and with an end an ulp off a side of slope 1/3.
+    /// // Clearly inside; then with an end one ulp off a side of slope 1/3.
     /// for x in [0.5, 1.5_f64.next_down()] {
     ///     let segment = Segment::new([x, 0.3, 2.5], [0.0, 0.1, 2.0]);
     ///     let _ = frustum.clip_segment_counted(&segment, Accuracy::Fast, &mut counts)?;

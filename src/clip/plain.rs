@@ -1,13 +1,14 @@
-//! What the plain tiers of all clippers share: the check of the input, the
-//! choice of the frustum's form, and the assembling of a result.
+//! The plain tiers' common parts: the check of the input, the
+//! choice of the frustum's form, and the construction of a result.
 //!
 //! Every plain clipper finds two parameters, two face sets and the coplanar
-//! set in its own way; what they mean is said once, in [`Found::build`].
+//! set in its own way; [`Found::build`] makes the result of them.
 //!
 //! The sets hold the faces whose computed parameter equals the chosen one,
 //! and at an end that is not clipped those with a boundary value of zero.
 
-use super::result::{Class, Part, PartEnd, SegmentClip};
+use super::result::{Part, PartEnd, SegmentClip};
+use super::whole;
 use crate::frustum::{
     Face, FaceSet, Form, Frustum, General, Layout, Orthographic, PlainFrustum, Symmetric,
 };
@@ -34,7 +35,7 @@ pub(crate) fn run<T: Real>(
     run_huge(frustum, segment, clip)
 }
 
-/// What is left: an error, or a segment so large that it is clipped at an
+/// The other cases: an error, or a segment so large that it is clipped at an
 /// eighth of its size.
 #[cold]
 #[inline(never)]
@@ -84,7 +85,7 @@ pub(crate) fn min<T: Real>(new: T, acc: T) -> T {
     if new < acc { new } else { acc }
 }
 
-/// What a plain clipper has found in a segment that meets the frustum.
+/// The findings of a plain clipper about a segment that meets the frustum.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Found<T> {
     /// The parameters, `0 <= t[0] <= t[1] <= 1`.
@@ -132,8 +133,8 @@ impl<T: Real> Found<T> {
         }
     }
 
-    /// Takes in the values of a face at both ends, dividing only where their
-    /// signs ask for it. False if both are outside.
+    /// Adds a face by its values at both ends, and divides only if their
+    /// signs differ. False if both ends are outside.
     #[inline(always)]
     pub(crate) fn face_by_signs(&mut self, face: Face, a: T, b: T) -> bool {
         let zero = T::ZERO;
@@ -151,7 +152,7 @@ impl<T: Real> Found<T> {
         true
     }
 
-    /// Takes in a face that has a zero value at an end.
+    /// Adds a face that has a zero value at an end.
     #[cold]
     fn zeros(&mut self, face: Face, a: T, b: T) {
         let zero = T::ZERO;
@@ -170,7 +171,7 @@ impl<T: Real> Found<T> {
         let [t0, t1] = self.t;
         let clipped = self.clipped[0] | self.clipped[1];
         if !clipped && p == q {
-            return point(segment, self.coplanar);
+            return whole::point(segment, self.coplanar);
         }
         let touch = t0 == t1;
         // Both points are always computed: choosing afterwards costs less than
@@ -180,32 +181,19 @@ impl<T: Real> Found<T> {
         let last = choose(self.clipped[1], d.times_plus(t1, p), q);
         let both = self.faces[0].union(self.faces[1]);
         let [entry, exit] = if touch { [both, both] } else { self.faces };
-        let class = if touch {
-            Class::Touch
-        } else if !self.coplanar.is_empty() {
-            Class::Boundary
-        } else if clipped {
-            Class::Cross
-        } else {
-            Class::Inside
+        let end = |i: usize, point, faces: FaceSet| {
+            PartEnd::fast(
+                self.t[i],
+                point,
+                self.clipped[i],
+                faces.union(self.coplanar),
+            )
         };
         SegmentClip {
-            class,
+            class: whole::class(touch, !self.coplanar.is_empty(), clipped),
             part: Some(Part {
-                entry: PartEnd {
-                    t: t0,
-                    point: first,
-                    clipped: self.clipped[0],
-                    faces: entry.union(self.coplanar),
-                    inward: !self.clipped[0],
-                },
-                exit: PartEnd {
-                    t: t1,
-                    point: last,
-                    clipped: self.clipped[1],
-                    faces: exit.union(self.coplanar),
-                    inward: !self.clipped[1],
-                },
+                entry: end(0, first, entry),
+                exit: end(1, last, exit),
                 coplanar: self.coplanar,
             }),
         }
@@ -219,52 +207,6 @@ fn choose<T: Real>(condition: bool, a: Vec3<T>, b: Vec3<T>) -> Vec3<T> {
         if condition { a.y } else { b.y },
         if condition { a.z } else { b.z },
     )
-}
-
-/// Nothing of the segment. Not the constant, since copying that would copy
-/// its padding, too.
-#[inline(always)]
-pub(crate) fn outside<T>() -> SegmentClip<T> {
-    SegmentClip {
-        class: Class::Outside,
-        part: None,
-    }
-}
-
-/// All of the segment, touching no face.
-#[inline(always)]
-pub(crate) fn inside<T: Real>(segment: &Segment<T>) -> SegmentClip<T> {
-    whole(segment, Class::Inside, FaceSet::EMPTY)
-}
-
-/// A segment of zero length in the frustum, on these faces.
-#[cold]
-fn point<T: Real>(segment: &Segment<T>, faces: FaceSet) -> SegmentClip<T> {
-    let class = if faces.is_empty() {
-        Class::Inside
-    } else {
-        Class::Touch
-    };
-    whole(segment, class, faces)
-}
-
-#[inline(always)]
-fn whole<T: Real>(segment: &Segment<T>, class: Class, faces: FaceSet) -> SegmentClip<T> {
-    let end = |t, point| PartEnd {
-        t,
-        point,
-        clipped: false,
-        faces,
-        inward: true,
-    };
-    SegmentClip {
-        class,
-        part: Some(Part {
-            entry: end(T::ZERO, segment.start),
-            exit: end(T::ONE, segment.end),
-            coplanar: FaceSet::EMPTY,
-        }),
-    }
 }
 
 /// A plain algorithm over frame coordinates.

@@ -1,4 +1,4 @@
-//! What clipping a segment gives.
+//! The result of clipping a segment, and the choice of its accuracy.
 
 use crate::frustum::FaceSet;
 use crate::math::{Real, Vec3};
@@ -6,7 +6,7 @@ use std::fmt;
 use std::iter::Sum;
 use std::ops::{Add, AddAssign};
 
-/// How a closed segment S lies to a closed frustum F.
+/// Position of a closed segment S relative to a closed frustum F.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "lowercase"))]
@@ -67,8 +67,8 @@ pub struct PartEnd<T> {
     pub faces: FaceSet,
     /// With [`Accuracy::Inward`]: whether `point` satisfies every face exactly.
     /// Always true for an end that was not clipped; with the other accuracies,
-    /// false for one that was. From plain arithmetic it proves nothing: that may
-    /// take an end outside for one that is not clipped.
+    /// false for one that was. With [`Arithmetic::Plain`] it proves nothing: an end that is
+    /// outside may count as not clipped.
     pub inward: bool,
 }
 
@@ -83,9 +83,9 @@ pub struct PartEnd<T> {
     ))
 )]
 pub struct Part<T> {
-    /// Where the segment enters; `entry.faces` is the entry set.
+    /// Where the segment enters the frustum; `entry.faces` is the entry set.
     pub entry: PartEnd<T>,
-    /// Where it leaves; `exit.faces` is the exit set. `entry.t <= exit.t`.
+    /// Where it leaves the frustum; `exit.faces` is the exit set. `entry.t <= exit.t`.
     pub exit: PartEnd<T>,
     /// The faces whose planes contain the whole segment; empty for a segment
     /// of zero length.
@@ -104,33 +104,34 @@ pub struct Part<T> {
 )]
 #[must_use]
 pub struct SegmentClip<T> {
-    /// How the segment lies to the frustum.
+    /// The position of the segment relative to the frustum.
     pub class: Class,
-    /// What of it is in the frustum; `None` exactly if the class is `Outside`.
+    /// The part in the frustum; `None` exactly if the class is `Outside`.
     pub part: Option<Part<T>>,
 }
 
 impl<T: Real> SegmentClip<T> {
-    /// The result for a segment with nothing in the frustum.
+    /// The result for a segment that has no point in the frustum.
     pub const OUTSIDE: Self = Self {
         class: Class::Outside,
         part: None,
     };
 
-    /// Entry and exit points, if there are any.
+    /// The entry point and the exit point, if the segment meets the frustum.
     #[must_use]
     pub fn points(&self) -> Option<[Vec3<T>; 2]> {
         self.part.map(|p| [p.entry.point, p.exit.point])
     }
 }
 
-/// How exactly the points of a clipped segment are computed. Classes and face
-/// sets are exact with each of them.
+/// How accurately the points and parameters of a clipped segment are computed. Classes and face
+/// sets are exact with each accuracy.
 ///
-/// `u` is the unit roundoff of the segment's scalar type.
+/// `u` is the unit roundoff of the segment's scalar type: 2^-24 for `f32`, 2^-53 for `f64`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "lowercase"))]
+#[non_exhaustive]
 pub enum Accuracy {
     /// Each coordinate within `8 u` times the segment's largest coordinate,
     /// plus the smallest subnormal; each parameter within `4 u`.
@@ -145,13 +146,26 @@ pub enum Accuracy {
     Inward,
 }
 
-/// What a clipper computes with.
+impl Accuracy {
+    /// The accuracy's name in lower case.
+    pub const fn name(self) -> &'static str {
+        ["fast", "nearest", "inward"][self as usize]
+    }
+}
+
+impl fmt::Display for Accuracy {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+/// The arithmetic that a clipper decides with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Arithmetic {
-    /// The textbook's algorithm in floating point of the segment's own type:
+    /// Floating point of the segment's own type, as in textbooks:
     /// classes, sets and points may be wrong.
     Plain,
-    /// Every decision is an exact sign.
+    /// Every decision is an exact sign; points have the given accuracy.
     Exact(Accuracy),
 }
 
@@ -161,20 +175,20 @@ impl Default for Arithmetic {
     }
 }
 
-/// How often each stage of the exact predicates was needed. With `Inward` the
-/// later stages' numbers include the signs of candidates.
+/// How often each stage of the exact predicates was needed.
 ///
-/// Sums over segments add up: with `+`, `+=` and [`Iterator::sum`].
+/// With [`Accuracy::Inward`] the counts of the later stages include the signs of candidate points.
+/// Counts of segments add up: with `+`, `+=` and [`Iterator::sum`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(default))]
 pub struct StageCounts {
-    /// Segments on a grid so coarse that plain arithmetic makes no error; they
-    /// need no other stage, but perhaps to round their points.
+    /// Segments on a grid so coarse that plain arithmetic makes no error. They
+    /// need no other stage, except to round their points.
     pub lattice: u64,
-    /// Segments of which the floating-point filter left at least one sign open,
-    /// whichever later stage settled it: mostly double-double.
+    /// Segments with at least one sign that the floating-point filter left open,
+    /// whichever later stage decided it: mostly double-double.
     pub filter_failures: u64,
     /// Signs taken from double-double values.
     pub double_doubles: u64,

@@ -1,10 +1,9 @@
-//! Six planes: the "general algorithm", built as it is described.
+//! Six planes: the "general algorithm", as it is described.
 //!
 //! # Source
-//! The general method that the paper on projection reduction compares with. It
-//! says that this method errs on singular cases; built as described, the plain
-//! tier does, and is here so that this can be shown. The sound variant is
-//! [`CyrusBeck`](super::CyrusBeck).
+//! The general method that the paper on projection reduction compares with, and which errs on
+//! singular cases according to the paper. The plain tier follows the description and does err;
+//! it is here to show that. The sound variant is [`CyrusBeck`](super::CyrusBeck).
 //!
 //! # Idea
 //! ```text
@@ -12,7 +11,7 @@
 //!     intersect it with the segment's line (not if parallel)
 //!     keep the point if it is between the ends, and inside the other planes
 //! an end of the segment that is inside all planes is kept, too
-//! the first and the last point kept bound the result; none: outside
+//! the first and the last point kept bound the result; no point kept: outside
 //! ```
 //!
 //! # Where it errs
@@ -25,16 +24,17 @@
 //!
 //! # Complexity
 //! Constant: up to six divisions, and up to 5 plane values for each point; the
-//! slowest one here.
+//! slowest algorithm here.
 //!
 //! # Degenerate input
-//! A parallel plane is skipped; that the segment is outside it shows when
-//! other planes' points are tested. Of a segment of zero length only the ends
+//! A parallel plane is skipped; a segment that is outside it is rejected when
+//! the other planes' points are tested. Only the ends of a segment of zero length
 //! are tested.
 
 use super::plain::{self, Found};
 use super::predicates::{Predicates, Role, Span};
 use super::result::{Accuracy, Arithmetic, SegmentClip, StageCounts};
+use super::whole::outside;
 use super::{SegmentClipper, exact};
 use crate::frustum::{Face, FaceSet, Frustum, PlainFrustum};
 use crate::math::{NonFinite, Real, Segment};
@@ -43,12 +43,12 @@ use std::cmp::Ordering;
 /// Clips by intersecting with six planes and keeping the points that are inside.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct SixPlanes {
-    /// What it computes with.
+    /// The arithmetic of its decisions.
     pub arithmetic: Arithmetic,
 }
 
 impl SixPlanes {
-    /// In floating point of the segment's own type.
+    /// Decisions in floating point of the segment's own type.
     #[must_use]
     pub const fn plain() -> Self {
         Self {
@@ -56,7 +56,7 @@ impl SixPlanes {
         }
     }
 
-    /// With exact decisions.
+    /// Exact decisions.
     #[must_use]
     pub const fn exact(accuracy: Accuracy) -> Self {
         Self {
@@ -86,7 +86,7 @@ impl<T: Real> SegmentClipper<T> for SixPlanes {
     }
 }
 
-/// What has been kept.
+/// The first and the last point kept.
 struct Kept<T> {
     t: [T; 2],
     faces: [FaceSet; 2],
@@ -115,19 +115,19 @@ impl<T: Real> Kept<T> {
 pub(crate) fn clip<T: Real>(f: &PlainFrustum<T>, segment: &Segment<T>) -> SegmentClip<T> {
     let (zero, one) = (T::ZERO, T::ONE);
     let (p, d) = (segment.start, segment.end - segment.start);
-    let holds = |point, but: Option<Face>| {
+    let is_inside = |point, except: Option<Face>| {
         f.faces()
             .iter()
-            .all(|&face| Some(face) == but || f.planes[face as usize].value(point) >= zero)
+            .all(|&face| Some(face) == except || f.planes[face as usize].value(point) >= zero)
     };
     let mut kept = Kept {
         t: [one, zero],
         faces: [FaceSet::EMPTY; 2],
         any: false,
     };
-    let held = [holds(segment.start, None), holds(segment.end, None)];
+    let kept_ends = [is_inside(segment.start, None), is_inside(segment.end, None)];
     for (end, t) in [zero, one].into_iter().enumerate() {
-        if held[end] {
+        if kept_ends[end] {
             kept.keep(t, FaceSet::EMPTY);
         }
     }
@@ -143,16 +143,16 @@ pub(crate) fn clip<T: Real>(f: &PlainFrustum<T>, segment: &Segment<T>) -> Segmen
             continue;
         }
         let t = -a / slope;
-        if t >= zero && t <= one && holds(d.times_plus(t, p), Some(face)) {
+        if t >= zero && t <= one && is_inside(d.times_plus(t, p), Some(face)) {
             kept.keep(t, face.into());
         }
     }
     if !kept.any {
-        return plain::outside();
+        return outside();
     }
     Found {
         t: kept.t,
-        clipped: held.map(|held| !held),
+        clipped: kept_ends.map(|kept| !kept),
         faces: kept.faces,
         coplanar,
     }

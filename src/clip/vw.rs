@@ -15,8 +15,8 @@
 //! parameters of the crossed sides of TV and TW; intersect the two intervals
 //! the points at the interval's ends, in the input's coordinates
 //! ```
-//! One half-width serves two opposite sides of a symmetric frustum, and what V
-//! has computed is not computed again for W.
+//! One half-width serves two opposite sides of a symmetric frustum, and W uses the
+//! values that V has computed.
 //!
 //! # Deviations
 //! 1. Points are interpolated in the input's coordinates; the paper transforms
@@ -29,16 +29,17 @@
 //!    face's two values is zero.
 //!
 //! # Complexity
-//! Constant: 12 values at most, 6 divisions, none if rejected or accepted.
+//! Constant: 12 values at most; 6 divisions, or none if the segment is rejected or accepted.
 //!
 //! # Degenerate input
 //! Zero values at the ends are touches, which count as hits; two of them are a
 //! coplanar face, whose parameter 0/0 is never chosen. A segment of zero length
-//! has only equal values, so nothing is crossed. In plain arithmetic all this
-//! is subject to rounding; in exact arithmetic it is decided by signs.
+//! has only equal values, so no face is crossed. In plain arithmetic all this
+//! is subject to rounding; in exact arithmetic signs decide.
 
 use super::plain::{self, Found, InFrame, max, min};
 use super::result::{Accuracy, Arithmetic, SegmentClip, StageCounts};
+use super::whole::{inside, outside};
 use super::{SegmentClipper, exact, many};
 use crate::frustum::{Face, FaceSet, Frustum, Layout, PlainFrustum};
 use crate::math::{NonFinite, NonFiniteAt, Real, Segment};
@@ -47,12 +48,12 @@ use fearless_simd::Level;
 /// Clips by projection on two planes ("V/W").
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct VwProjection {
-    /// What it computes with.
+    /// The arithmetic of its decisions.
     pub arithmetic: Arithmetic,
 }
 
 impl VwProjection {
-    /// In floating point of the segment's own type.
+    /// Decisions in floating point of the segment's own type.
     #[must_use]
     pub const fn plain() -> Self {
         Self {
@@ -60,7 +61,7 @@ impl VwProjection {
         }
     }
 
-    /// With exact decisions.
+    /// Exact decisions.
     #[must_use]
     pub const fn exact(accuracy: Accuracy) -> Self {
         Self {
@@ -126,25 +127,25 @@ impl InFrame for Plain {
         let p = f.to_frame(segment.start);
         let q = f.to_frame(segment.end);
         let ([wp, fp], [wq, fq]) = (f.depths::<L>(p.z), f.depths::<L>(q.z));
-        // Where there is no far face its lane repeats the near one: constants
-        // there would keep the compiler from pairing the divisions.
+        // Where there is no far face, its lane repeats the near one: with constants
+        // there the compiler would not pair the divisions.
         let (fp, fq) = if L::FAR { (fp, fq) } else { (wp, wq) };
         let [lp, rp] = f.sides::<L>(0, wp, p.x);
         let [lq, rq] = f.sides::<L>(0, wq, q.x);
         let v = min(min(max(wp, wq), max(fp, fq)), min(max(lp, lq), max(rp, rq)));
         if v < zero {
-            return plain::outside();
+            return outside();
         }
         let [bp, tp] = f.sides::<L>(2, wp, p.y);
         let [bq, tq] = f.sides::<L>(2, wq, q.y);
         let w = min(max(bp, bq), max(tp, tq));
         if w < zero {
-            return plain::outside();
+            return outside();
         }
         let least_p = min(min(min(wp, fp), min(lp, rp)), min(bp, tp));
         let least_q = min(min(min(wq, fq), min(lq, rq)), min(bq, tq));
         if min(least_p, least_q) > zero {
-            return plain::inside(segment);
+            return inside(segment);
         }
         let values = [[wp, fp, lp, rp, bp, tp], [wq, fq, lq, rq, bq, tq]];
         let coplanar = if min(v, w) > zero {
@@ -159,7 +160,7 @@ impl InFrame for Plain {
 /// The faces with two zero values.
 #[inline(never)]
 fn both_zero<T: Real>([a, b]: &[[T; 6]; 2]) -> FaceSet {
-    // No branches: which of them cannot be predicted.
+    // No branches: which faces cannot be predicted.
     let on = |i: usize| (a[i] == T::ZERO) & (b[i] == T::ZERO);
     FaceSet::from_bits((0..6).fold(0, |bits, i| bits | u8::from(on(i)) << i))
 }
@@ -176,7 +177,7 @@ fn cross<T: Real, L: Layout>(
     let (mut enter, mut leave) = ([-T::ONE; 6], [two; 6]);
     for i in 0..6 {
         let t = a[i] / (a[i] - b[i]);
-        // A face that is not crossed stands where it changes nothing; so does
+        // The parameters of a face that is not crossed change nothing; nor does
         // 0/0.
         enter[i] = max(if a[i] > T::ZERO { -T::ONE } else { t }, -T::ONE);
         leave[i] = min(if b[i] > T::ZERO { two } else { t }, two);
@@ -191,19 +192,19 @@ fn cross<T: Real, L: Layout>(
         min(min(l[4], l[5]), T::ONE),
     );
     if t0 > t1 {
-        return plain::outside();
+        return outside();
     }
     let (mut entered, mut left) = (0_u8, 0_u8);
     for i in 0..6 {
         entered |= u8::from(enter[i] >= t0) << i;
         left |= u8::from(leave[i] <= t1) << i;
     }
-    let there = |bits| FaceSet::from_bits(if L::FAR { bits } else { bits & !FAR });
+    let existing = |bits| FaceSet::from_bits(if L::FAR { bits } else { bits & !FAR });
     Found {
         t: [t0, t1],
         clipped,
-        faces: [there(entered), there(left)],
-        coplanar: there(coplanar.bits()),
+        faces: [existing(entered), existing(left)],
+        coplanar: existing(coplanar.bits()),
     }
     .build(segment)
 }

@@ -23,8 +23,6 @@ use super::separation::Separation;
 use super::support::{Extent, with_extent};
 use super::volume::{Volume, VolumeError};
 use super::{Containment, VolumeCounts};
-use crate::exact::dyadic::Dyadic;
-use crate::frustum::eval::boundary::boundary;
 use crate::frustum::eval::half_space::{HalfSpace, MOST, size, threshold, value};
 use crate::frustum::eval::planes::FacePlanesPair;
 use crate::frustum::{Face, FaceSet, Frustum};
@@ -146,32 +144,11 @@ pub struct MaskedContainment {
     pub faces: FaceSet,
 }
 
-/// A face's half space from values of its boundary function, which is linear.
-fn half_space(frustum: &Frustum, face: Face) -> Option<HalfSpace> {
-    let at = |p: [f64; 3]| {
-        let Ok(value) = boundary::<Dyadic>(frustum, face, Vec3::from(p));
-        value
-    };
-    let origin = at([0.0; 3]);
-    let along = |p| &at(p) - &origin;
-    let normal = [
-        along([1.0, 0.0, 0.0]),
-        along([0.0, 1.0, 0.0]),
-        along([0.0, 0.0, 1.0]),
-    ];
-    let [x, y, z] = normal;
-    HalfSpace::new([x, y, z, origin])
-}
-
 impl Culler {
     /// Prepares a frustum's faces.
     #[must_use]
     pub fn new(frustum: &Frustum) -> Self {
-        let faces = frustum.faces().iter();
-        // The axes of a frustum are independent: no normal is zero.
-        let half_spaces: Box<[HalfSpace]> = faces
-            .filter_map(|&face| half_space(frustum, face))
-            .collect();
+        let half_spaces = HalfSpace::of_faces(frustum);
         Self {
             frustum: frustum.clone(),
             planes: Planes::new(&half_spaces),

@@ -1,6 +1,6 @@
-//! Where a byte's bits are: numbers are listed eight bits at a time, without branches.
+//! The positions of a byte's bits: indices are listed eight bits at a time, without branches.
 
-/// The places of a byte's bits, from the lowest on; beyond them zeros.
+/// The positions of each byte's set bits, from the lowest on, then zeros.
 pub(crate) const PLACES: [[u8; 8]; 256] = {
     let mut all = [[0; 8]; 256];
     let mut byte = 0;

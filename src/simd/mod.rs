@@ -1,11 +1,11 @@
-//! Vector registers: the width, chosen at run time once for a slice; a half space in each lane;
+//! Vector registers: their width, chosen at run time once for a slice; a half space in each lane;
 //! lists of indices from bits.
 
 pub(crate) mod compaction;
 pub(crate) mod plane_lanes;
 
-/// Runs what is generic over the vector width. On x86 with one of two, AVX2's and SSE2's, or of
-/// three where there is something to run with registers of AVX-512; what SSE4.2 adds is not used.
+/// Runs code that is generic over the vector width. On x86 there are two widths, those of AVX2 and
+/// SSE2, or three with an expression for registers of AVX-512; SSE4.2's instructions are not used.
 #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
 macro_rules! at_width {
     ($level:expr, $simd:ident => $run:expr, $wide:ident => $run_wide:expr) => {
@@ -42,7 +42,7 @@ macro_rules! at_width {
 
 pub(crate) use at_width;
 
-/// Every width of this machine that anything is compiled for, the widest first.
+/// Every vector width of this machine that code is compiled for, the widest first.
 #[cfg(test)]
 pub(crate) fn levels() -> Vec<fearless_simd::Level> {
     use fearless_simd::Level;

@@ -1,10 +1,10 @@
-//! A half space `n . p + d`, everywhere in a register the same.
+//! A half space `n . p + d >= 0`, the same one in each lane of a register.
 
 use crate::frustum::eval::planes::Plane;
 use crate::math::Real;
 use fearless_simd::prelude::*;
 
-/// A face's numbers in each lane.
+/// Normal and offset in each lane.
 #[derive(Clone, Copy)]
 pub(crate) struct PlaneLanes<V> {
     normal: [V; 3],
@@ -13,18 +13,18 @@ pub(crate) struct PlaneLanes<V> {
 
 impl<V: Copy> PlaneLanes<V> {
     #[inline(always)]
-    pub(crate) fn new<S: Simd, T: Real>(simd: S, row: &Plane<T>) -> Self
+    pub(crate) fn new<S: Simd, T: Real>(simd: S, plane: &Plane<T>) -> Self
     where
         V: SimdFloat<S, Element = T>,
     {
-        let [x, y, z] = row.normal;
+        let [x, y, z] = plane.normal;
         Self {
             normal: [V::splat(simd, x), V::splat(simd, y), V::splat(simd, z)],
-            offset: V::splat(simd, row.offset),
+            offset: V::splat(simd, plane.offset),
         }
     }
 
-    /// `n . p`, and a number in the offset's place.
+    /// `n . p + offset`, with another offset than the half space's.
     #[inline(always)]
     pub(crate) fn along<S: Simd>(&self, p: &[V; 3], offset: V) -> V
     where

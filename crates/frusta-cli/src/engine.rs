@@ -94,16 +94,10 @@ impl<T: Real> Engine<T> {
 
     /// Arithmetic and, if that is exact, accuracy.
     pub(crate) fn arithmetic(&self) -> (&'static str, Option<&'static str>) {
-        let accuracy = match self.arithmetic {
-            frusta::Arithmetic::Exact(accuracy) => accuracy,
-            frusta::Arithmetic::Plain => return ("plain", None),
-        };
-        let accuracy = match accuracy {
-            frusta::Accuracy::Fast => "fast",
-            frusta::Accuracy::Nearest => "nearest",
-            frusta::Accuracy::Inward => "inward",
-        };
-        ("exact", Some(accuracy))
+        match self.arithmetic {
+            frusta::Arithmetic::Exact(accuracy) => ("exact", Some(accuracy.name())),
+            frusta::Arithmetic::Plain => ("plain", None),
+        }
     }
 
     /// Whether there are stages of decisions to count.

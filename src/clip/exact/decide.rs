@@ -13,12 +13,12 @@ use std::cmp::Ordering;
 pub(crate) enum At {
     /// At one of the segment's own ends.
     End(End),
-    /// Where the segment crosses a face: the first of all that it crosses
-    /// there, which is the same seen from either end.
+    /// Where the segment crosses a face: the first one, in the order of [`Face::ALL`], of those
+    /// that it crosses there. So swapping the ends gives the same face.
     Crossing(Face),
 }
 
-/// All that is decided about a segment that meets the frustum.
+/// The decisions about a segment that meets the frustum.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Decision {
     pub(crate) class: Class,
@@ -52,7 +52,7 @@ impl EndSigns {
 }
 
 impl Decision {
-    /// For a segment of positive length; see [`Decision::point`] for the rest.
+    /// For a segment of positive length; [`Decision::point`] is for the others.
     #[inline]
     pub(crate) fn new(p: &mut impl Predicates, span: Span) -> Self {
         let start = EndSigns::new(p, End::Start);

@@ -4,9 +4,9 @@
 //! rounded point, in representable steps summed over the coordinates, then by
 //! coordinates: first those at most one step away in each coordinate, if all
 //! three are evenly spaced there, then all. That order is a function of the
-//! exact point and the frustum alone. All have every coordinate within 2 ulp of
+//! exact point and the frustum alone. Every coordinate of a candidate is within 2 ulp of
 //! the exact one. One step from the rounded value always is, where the spacing
-//! does not change; for the rest, and for two and more steps, the distance is
+//! does not change; otherwise, and for two and more steps, the distance is
 //! compared exactly.
 
 use super::points::ExactPoint;
@@ -15,9 +15,9 @@ use crate::frustum::{Face, FaceSet};
 use crate::math::{Real, Vec3};
 use std::cmp::Ordering;
 
-/// Steps that can be within 2 ulp: next to a power of two the spacing below is
+/// Upper bound of the steps that can be within 2 ulp: next to a power of two the spacing below is
 /// half the spacing above.
-const REACH: i32 = 5;
+const MAX_STEPS: i32 = 5;
 
 /// The first candidate in the frustum and true, or the rounded point and false.
 ///
@@ -42,18 +42,18 @@ pub(super) fn search<T: Real>(
         }
     }
     let exact = ExactPoint::new(staged, face);
-    let mut known = [[None; 2 * REACH as usize + 1]; 3];
+    let mut known = [[None; 2 * MAX_STEPS as usize + 1]; 3];
     let mut near = |k: usize, steps: i32| {
-        let slot = &mut known[k][(steps + REACH).unsigned_abs() as usize];
+        let slot = &mut known[k][(steps + MAX_STEPS).unsigned_abs() as usize];
         let value = walk(rounded.to_array()[k], steps);
         *slot.get_or_insert_with(|| within_two_ulp(&exact, k, value))
     };
     let mut found = None;
     if keep_depth {
         let keep = |k: usize, steps: i32| (k < 2 || steps == 0) && near(k, steps);
-        found = nearest_inside(staged, rounded, REACH, keep);
+        found = nearest_inside(staged, rounded, MAX_STEPS, keep);
     }
-    match found.or_else(|| nearest_inside(staged, rounded, REACH, near)) {
+    match found.or_else(|| nearest_inside(staged, rounded, MAX_STEPS, near)) {
         Some(point) => (point, true),
         None => (rounded, false),
     }
@@ -103,7 +103,7 @@ fn contains<T: Real>(staged: &mut Staged<'_>, point: Vec3<T>) -> bool {
         .all(|&face| staged.sign_at(face, point, &values) != Ordering::Less)
 }
 
-/// So many representable values up or down.
+/// The value a number of steps up or down, by representable values.
 fn walk<T: Real>(value: T, steps: i32) -> T {
     (0..steps.abs()).fold(value, |v, _| {
         if steps < 0 {
@@ -132,15 +132,14 @@ fn within_two_ulp<T: Real>(exact: &ExactPoint, k: usize, value: T) -> bool {
     }
     // The representable values that enclose the exact one.
     let mut low = value;
-    for _ in 0..2 * REACH {
+    for _ in 0..2 * MAX_STEPS {
         match exact.order(k, low.to_f64()) {
             Ordering::Less => low = low.next_down(),
             _ if exact.order(k, low.next_up().to_f64()) == Ordering::Less => break,
             _ => low = low.next_up(),
         }
     }
-    // On a representable value, its own ulp: the spacing away from zero, where
-    // there is a value.
+    // The ulp of a representable value is the spacing away from zero, if there is a next value.
     let (below, above) = (low.next_down(), low.next_up());
     let away_is_below = low < T::ZERO && exact.order(k, low.to_f64()) == Ordering::Equal;
     let ulp = if (away_is_below && below.is_finite()) || !above.is_finite() {

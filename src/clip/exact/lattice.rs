@@ -1,20 +1,47 @@
-//! V/W where floating point makes no error: coordinates on a coarse grid, and
-//! a frustum whose numbers are.
+//! V/W where floating point makes no error: the coordinates and the frustum's constants are on a
+//! coarse grid.
 //!
-//! Values have at most 25 bits ([`Filter`] sees to that), so they and their
+//! Values have at most 25 bits ([`Filter`] ensures it), so they and their
 //! differences are exact. Two crossing parameters that differ do so by more
 //! than 2^-52, and each quotient is rounded by at most 2^-54: rounded
 //! parameters are in the order of the exact ones, and equal where they are. So
-//! the plain algorithm decides exactly, also what touches, at its own speed.
-//! Grid-aligned models against grid-aligned boxes are all of this kind.
+//! the plain algorithm decides exactly, touches included, at its own speed.
+//! Grid-aligned models in grid-aligned boxes are all of this kind.
 
 use super::pair::{self, Ends};
-use crate::clip::plain::outside;
-use crate::clip::{Class, SegmentClip};
+use crate::clip::SegmentClip;
+use crate::clip::rules::compare::Compare;
+use crate::clip::whole::{class, outside, point};
 use crate::frustum::FaceSet;
 use crate::frustum::eval::filter::{Filter, Values};
 use crate::math::{Real, Segment};
 use wide::f64x2;
+
+/// A face's crossing.
+pub(crate) struct LatticeCrossing<F: Compare> {
+    /// The parameter if the face is entered, else -1.
+    pub(crate) enter: F,
+    /// The parameter if the face is left, else 2.
+    pub(crate) leave: F,
+    /// Whether the values at start and end are equal.
+    pub(crate) is_level: F::Mask,
+}
+
+impl<F: Compare> LatticeCrossing<F> {
+    /// From the values at start and end. The parameters of a face that is not crossed change
+    /// nothing; so do those of equal values, whose quotient is NaN or infinite.
+    #[inline(always)]
+    pub(crate) fn new(a: F, b: F) -> Self {
+        let zero = a.splat(0.0);
+        let t = a / (a - b);
+        let is_level = a.is_equal(b);
+        Self {
+            enter: F::select(zero.is_less(a) | is_level, a.splat(-1.0), t),
+            leave: F::select(zero.is_less(b) | is_level, a.splat(2.0), t),
+            is_level,
+        }
+    }
+}
 
 /// Clips a segment, if it is on the lattice.
 #[inline(never)]
@@ -27,8 +54,8 @@ pub(super) fn clip<T: Real>(
     if !filter.on_lattice(&segment.to_f64(), p, q) {
         return None;
     }
-    let all = f64x2::splat;
-    let zero = all(0.0);
+    let splat = f64x2::splat;
+    let zero = splat(0.0);
     let (a, b) = (&p.pairs, &q.pairs);
     let greater = |i: usize| a[i].fast_max(b[i]);
     if greater(0)
@@ -39,17 +66,11 @@ pub(super) fn clip<T: Real>(
     {
         return Some(outside());
     }
-    let (mut enter, mut leave) = ([zero; 3], [zero; 3]);
-    let mut still = zero.simd_eq(zero);
-    for i in 0..3 {
-        let t = a[i] / (a[i] - b[i]);
-        // Faces that are not crossed stand where they change nothing; so do
-        // those with two equal values, whose t is no number.
-        let level = a[i].simd_eq(b[i]);
-        still &= level;
-        enter[i] = (a[i].simd_gt(zero) | level).bitselect(all(-1.0), t);
-        leave[i] = (b[i].simd_gt(zero) | level).bitselect(all(2.0), t);
-    }
+    let crossings = [0, 1, 2].map(|i| LatticeCrossing::new(a[i], b[i]));
+    let enter = crossings.each_ref().map(|c| c.enter);
+    let leave = crossings.each_ref().map(|c| c.leave);
+    let [c, d, e] = crossings.map(|c| c.is_level);
+    let is_still = (c & d & e).all();
     // The unclipped interval, 0 to 1, stands beside both.
     let last = enter[0]
         .fast_max(enter[1])
@@ -58,7 +79,7 @@ pub(super) fn clip<T: Real>(
     let first = leave[0]
         .fast_min(leave[1])
         .fast_min(leave[2])
-        .fast_min(all(1.0));
+        .fast_min(splat(1.0));
     let ([e, f], [l, m]) = (last.to_array(), first.to_array());
     let t0 = if e > f { e } else { f };
     let t1 = if l < m { l } else { m };
@@ -67,8 +88,8 @@ pub(super) fn clip<T: Real>(
     }
     let at = [t0, t1];
     let on = |i: usize| a[i].simd_eq(zero) & b[i].simd_eq(zero);
-    let entered = |i: usize| enter[i].simd_ge(all(t0));
-    let left = |i: usize| leave[i].simd_le(all(t1));
+    let entered = |i: usize| enter[i].simd_ge(splat(t0));
+    let left = |i: usize| leave[i].simd_le(splat(t1));
     let (outside_a, outside_b) = (|i: usize| a[i].simd_lt(zero), |i: usize| b[i].simd_lt(zero));
     let any = |m: [f64x2; 3]| (m[0] | m[1] | m[2]).any();
     let clipped = [
@@ -87,7 +108,7 @@ pub(super) fn clip<T: Real>(
         clipped,
     };
     // Equal values are those of equal points: they are exact.
-    Some(if still.all() {
+    Some(if is_still {
         point(segment, coplanar)
     } else {
         finish(filter, segment, [p, q], &found)
@@ -101,7 +122,7 @@ fn set(lanes: [f64x2; 3]) -> FaceSet {
     FaceSet::from_bits((bits & 0x3f) as u8)
 }
 
-/// Parameters, the faces crossed there, and whether the segment goes on.
+/// Parameters of entry and exit, the faces crossed there, and whether the segment goes on.
 struct Found {
     at: [f64; 2],
     faces: [FaceSet; 2],
@@ -125,25 +146,14 @@ fn finish<T: Real>(
     let touch = at[0] == at[1];
     let both = faces[0].union(faces[1]);
     let faces = if touch { [both, both] } else { faces };
-    // A table, not branches: here all classes are common.
-    let class = {
-        use Class::{Boundary, Cross, Inside, Touch};
-        let rows = [
-            [Inside, Cross],
-            [Boundary, Boundary],
-            [Touch, Touch],
-            [Touch, Touch],
-        ];
-        let row = usize::from(touch) << 1 | usize::from(!coplanar.is_empty());
-        rows[row][usize::from(clipped[0] | clipped[1])]
-    };
-    // The first face crossed at each end; any number where there is none.
-    let number = |i: usize| (faces[i].bits().trailing_zeros() as usize).min(5);
-    let crossed = [number(0), number(1)];
+    let class = class(touch, !coplanar.is_empty(), clipped[0] | clipped[1]);
+    // The index of the first face crossed at each end; any index where there is none.
+    let index = |i: usize| (faces[i].bits().trailing_zeros() as usize).min(5);
+    let crossed = [index(0), index(1)];
     let [e, l] = crossed;
     let a = f64x2::new([p.of(e), p.of(l)]).abs();
     let b = f64x2::new([q.of(e), q.of(l)]).abs();
-    // At the segment's own ends there is nothing to construct; a touch there is
+    // The segment's own ends are not constructed; a touch there is
     // twice the same end.
     let at = f64x2::new(at);
     let end = at.simd_eq(f64x2::splat(1.0));
@@ -151,21 +161,7 @@ fn finish<T: Real>(
         crossing: at.simd_gt(f64x2::splat(0.0)) & !end,
         end,
     };
-    let points = pair::construct::<true>(filter, &segment.to_f64(), crossed, [a, b], &ends);
+    let places = pair::construct::<true>(filter, &segment.to_f64(), crossed, [a, b], ends);
     let sets = [faces[0].union(coplanar), faces[1].union(coplanar)];
-    pair::assemble(class, &points, clipped, sets, coplanar)
-}
-
-/// A segment of zero length in the frustum, on these faces.
-#[cold]
-fn point<T: Real>(segment: &Segment<T>, on: FaceSet) -> SegmentClip<T> {
-    let mut result = pair::inside(segment);
-    if !on.is_empty() {
-        result.class = Class::Touch;
-    }
-    if let Some(part) = &mut result.part {
-        part.entry.faces = on;
-        part.exit.faces = on;
-    }
-    result
+    pair::assemble(class, &places, clipped, sets, coplanar)
 }

@@ -3,8 +3,8 @@
 //! ```text
 //! staged    the predicates, in stages: lattice, filter, double-double,
 //!           expansions, integers
-//! decide    a span and the predicates give class, sets and where the ends are
-//! points    the ends' parameters and coordinates, to the accuracy asked for
+//! decide    class, sets and places of the ends, from a span and the predicates
+//! points    the ends' parameters and coordinates, to the requested accuracy
 //! vw        V/W with certificates instead, where rounded values prove enough
 //! lattice   the same where floating point makes no error at all
 //! pair      both ends of a segment side by side
@@ -13,20 +13,19 @@
 
 mod decide;
 mod inward;
-mod lattice;
+pub(crate) mod lattice;
 mod pair;
 mod points;
 mod staged;
 pub(crate) mod vw;
 
-pub(crate) use pair::inside;
 pub(crate) use staged::Staged;
 
 use decide::Decision;
 use points::build;
 
-use super::plain::outside;
 use super::predicates::{Predicates, Span};
+use super::whole::outside;
 use super::{Accuracy, SegmentClip, StageCounts};
 use crate::frustum::Frustum;
 use crate::math::{End, NonFinite, Real, Segment};
@@ -41,7 +40,18 @@ pub(crate) fn clip<T: Real>(
     span: impl FnOnce(&mut Staged<'_>) -> Option<Span>,
 ) -> Result<SegmentClip<T>, NonFinite> {
     segment.check_finite()?;
-    let mut staged = Staged::new(frustum, segment.to_f64());
+    let staged = Staged::new(frustum, segment.to_f64());
+    Ok(clip_staged(staged, segment, accuracy, counts, span))
+}
+
+/// As [`clip`], with the values of a finite segment known.
+fn clip_staged<T: Real>(
+    mut staged: Staged<'_>,
+    segment: &Segment<T>,
+    accuracy: Accuracy,
+    counts: &mut StageCounts,
+    span: impl FnOnce(&mut Staged<'_>) -> Option<Span>,
+) -> SegmentClip<T> {
     let decision = if segment.start == segment.end {
         point(&mut staged)
     } else {
@@ -52,7 +62,7 @@ pub(crate) fn clip<T: Real>(
         Some(decision) => build(&mut staged, segment, &decision, accuracy),
     };
     staged.add_to(counts);
-    Ok(result)
+    result
 }
 
 /// A segment of zero length is its point: every algorithm's control flow

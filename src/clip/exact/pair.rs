@@ -1,26 +1,17 @@
 //! Entry and exit side by side in the two lanes of a register.
 //!
 //! The same points, bit for bit, as one at a time in [`super::points`], whose
-//! rule and error bound this follows. Where an end was not clipped its lane
-//! computes something meaningless, and a select puts the segment's own end
-//! there: which ends are clipped cannot be predicted. The parameters are in
-//! order: certificates and the lattice prove gaps of more than rounding closes.
+//! error bound this follows. The parameters are in
+//! order: certificates and the lattice prove that the gap is larger than rounding errors.
 
+use crate::clip::rules::site::{NearerEnd, Places, Site, Step, end_is_smaller};
 use crate::clip::{Class, Part, PartEnd, SegmentClip};
 use crate::frustum::FaceSet;
 use crate::frustum::eval::filter::Filter;
 use crate::math::{Real, Segment, Vec3};
 use wide::f64x2;
 
-/// Parameters and coordinates of entry and exit.
-pub(super) struct Pair {
-    pub(super) t: f64x2,
-    pub(super) x: f64x2,
-    pub(super) y: f64x2,
-    pub(super) z: f64x2,
-}
-
-/// What is at the two ends of the part, in lanes with all bits set or none.
+/// The kinds of the part's two ends, in lanes with all bits set or none.
 pub(super) struct Ends {
     /// A crossing, not an end of the segment.
     pub(super) crossing: f64x2,
@@ -28,7 +19,7 @@ pub(super) struct Ends {
     pub(super) end: f64x2,
 }
 
-/// Both ends, from the numbers of the faces crossed there and the magnitudes
+/// Both ends, from the indices of the faces crossed there and the magnitudes
 /// of their boundary values at start and end of the segment. `TIES`: equal
 /// magnitudes are common.
 #[inline(always)]
@@ -37,48 +28,37 @@ pub(super) fn construct<const TIES: bool>(
     segment: &Segment<f64>,
     faces: [usize; 2],
     [a, b]: [f64x2; 2],
-    ends: &Ends,
-) -> Pair {
-    let Segment { start, end } = *segment;
-    let all = f64x2::splat;
-    let mut from_end = b.simd_lt(a);
-    let ties = a.simd_eq(b);
-    if TIES {
-        from_end = ties.bitselect(lesser(segment), from_end);
-    } else if ties.any() {
-        from_end = ties.bitselect(cold_lesser(segment), from_end);
-    }
-    let tau = a.fast_min(b) / (a + b);
-    let t = from_end.bitselect(all(1.0) - tau, tau);
-    let signed = from_end.bitselect(-tau, tau);
-    // Adding zero: the sign of a zero must not depend on the order of the ends.
-    let crossed =
-        |p: f64, q: f64| from_end.bitselect(all(q), all(p)) + signed * all(q - p) + all(0.0);
-    let select = |v: f64x2, p: f64, q: f64| {
-        let own = ends.end.bitselect(all(q), all(p));
-        ends.crossing.bitselect(v, own)
+    ends: Ends,
+) -> Places<f64x2> {
+    let nearer = NearerEnd::new(a, b);
+    let from_end = if TIES {
+        nearer.with_ties(smaller(segment))
+    } else if nearer.has_ties() {
+        nearer.with_ties(cold_smaller(segment))
+    } else {
+        nearer.without_ties()
     };
-    let z = filter.precise.z_or_exact(faces, crossed(start.z, end.z));
-    Pair {
-        t: select(t, 0.0, 1.0),
-        x: select(crossed(start.x, end.x), start.x, end.x),
-        y: select(crossed(start.y, end.y), start.y, end.y),
-        z: select(z, start.z, end.z),
-    }
+    let site = Site {
+        step: Step::new(a, b, from_end),
+        crossing: ends.crossing,
+        end: ends.end,
+    };
+    let [p, q] = [segment.start, segment.end]
+        .map(|p| Vec3::new(f64x2::splat(p.x), f64x2::splat(p.y), f64x2::splat(p.z)));
+    let z = site.step.coordinate(p.z, q.z);
+    site.places(p, q, filter.precise.z_or_exact(faces, z))
 }
 
-/// All bits set if the end is lexicographically smaller than the start. No
-/// branches: where ties are common, they are not of one kind.
+/// All bits set if the end is lexicographically smaller than the start.
 #[inline(always)]
-fn lesser(segment: &Segment<f64>) -> f64x2 {
-    let Segment { start: p, end: q } = segment;
-    let end = (p.x > q.x) | ((p.x == q.x) & ((p.y > q.y) | ((p.y == q.y) & (p.z > q.z))));
+fn smaller(segment: &Segment<f64>) -> f64x2 {
+    let end = end_is_smaller(segment.start, segment.end);
     f64x2::splat(f64::from_bits(u64::from(end).wrapping_neg()))
 }
 
 #[cold]
-fn cold_lesser(segment: &Segment<f64>) -> f64x2 {
-    lesser(segment)
+fn cold_smaller(segment: &Segment<f64>) -> f64x2 {
+    smaller(segment)
 }
 
 /// A mask as flags.
@@ -92,7 +72,7 @@ pub(super) fn flags(mask: f64x2) -> [bool; 2] {
 #[inline(always)]
 pub(super) fn assemble<T: Real>(
     class: Class,
-    points: &Pair,
+    places: &Places<f64x2>,
     clipped: [bool; 2],
     faces: [FaceSet; 2],
     coplanar: FaceSet,
@@ -102,17 +82,14 @@ pub(super) fn assemble<T: Real>(
         [T::from_f64(a), T::from_f64(b)]
     };
     let (t, x, y, z) = (
-        lanes(points.t),
-        lanes(points.x),
-        lanes(points.y),
-        lanes(points.z),
+        lanes(places.t),
+        lanes(places.x),
+        lanes(places.y),
+        lanes(places.z),
     );
-    let end = |i: usize| PartEnd {
-        t: t[i],
-        point: Vec3::new(x[i], y[i], z[i]),
-        clipped: clipped[i],
-        faces: faces[i],
-        inward: !clipped[i],
+    let end = |i: usize| {
+        let point = Vec3::new(x[i], y[i], z[i]);
+        PartEnd::fast(t[i], point, clipped[i], faces[i])
     };
     SegmentClip {
         class,
@@ -124,39 +101,19 @@ pub(super) fn assemble<T: Real>(
     }
 }
 
-/// All of the segment, touching no face.
-#[inline(always)]
-pub(crate) fn inside<T: Real>(segment: &Segment<T>) -> SegmentClip<T> {
-    let end = |t, point| PartEnd {
-        t,
-        point,
-        clipped: false,
-        faces: FaceSet::EMPTY,
-        inward: true,
-    };
-    SegmentClip {
-        class: Class::Inside,
-        part: Some(Part {
-            entry: end(T::ZERO, segment.start),
-            exit: end(T::ONE, segment.end),
-            coplanar: FaceSet::EMPTY,
-        }),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    /// The same order as the one of arrays, which `points` goes by.
+    /// In the order of arrays.
     #[test]
-    fn the_lesser_end_is_the_lexicographically_smaller() {
+    fn the_smaller_end_is_lexicographically_smaller() {
         let point = |i: i32| Vec3::from([i % 3, i / 3 % 3, i / 9].map(f64::from));
         for (i, j) in (0..27).flat_map(|i| (0..27).map(move |j| (i, j))) {
             let segment = Segment::new(point(i), point(j));
             let end = segment.start.to_array() > segment.end.to_array();
             let expected = if end { 0b11 } else { 0 };
-            assert_eq!(lesser(&segment).to_bitmask(), expected, "{segment:?}");
+            assert_eq!(smaller(&segment).to_bitmask(), expected, "{segment:?}");
         }
     }
 }

@@ -5,8 +5,7 @@
 //! `(B start + A end) / (A + B)`.
 //!
 //! *Fast* takes A and B with a relative error of at most 2 u and steps from the
-//! end with the smaller value, a fraction tau <= 1/2 of the way (ties: from
-//! the lexicographically smaller point), so that swapping the ends gives the
+//! nearer end, by the rule of `clip/rules/site.rs`, so that swapping the ends gives the
 //! same bits. With M the largest coordinate: tau is within
 //! tau (1 - tau) 4 u + 2 u tau <= 2 u, which moves the point by at most
 //! 2 u * 2 M; the difference of the ends, the product and the sum add
@@ -15,12 +14,13 @@
 //!
 //! *Nearest* evaluates in double-double with an error bound, and rounds where
 //! both ends of the error interval round alike (Ziv's test); else in integers.
-//! A coordinate that the face itself says is not evaluated: boxes have faces at
+//! A coordinate that the face itself determines is not evaluated: boxes have faces at
 //! zero, where no error bound proves the sign.
 
 use super::decide::{At, Decision};
 use super::inward;
 use super::staged::Staged;
+use crate::clip::rules::site::{NearerEnd, Step, end_is_smaller};
 use crate::clip::{Accuracy, Part, PartEnd, SegmentClip};
 use crate::exact::Number;
 use crate::exact::double_double::Dd;
@@ -118,75 +118,65 @@ fn crossing<T: Real>(
     }
 }
 
-/// Where on the segment, seen from the end with the smaller boundary value.
-pub(super) struct Step {
-    /// The end, by number.
-    from: usize,
-    tau: f64,
+/// From the magnitudes at start and end.
+#[inline(always)]
+fn step_from(a: f64, b: f64, segment: &Segment<f64>) -> Step<f64> {
+    let nearer = NearerEnd::new(a, b);
+    let from_end = if nearer.has_ties() {
+        nearer.with_ties(is_smaller(segment))
+    } else {
+        nearer.without_ties()
+    };
+    Step::new(a, b, from_end)
 }
 
-impl Step {
-    /// From the magnitudes at start and end.
-    #[inline(always)]
-    pub(super) fn new(a: f64, b: f64, segment: &Segment<f64>) -> Self {
-        // A look-up by the result, not a branch on it: it cannot be predicted.
-        let mut from = usize::from(b < a);
-        if a == b {
-            from = lesser(segment);
-        }
-        Step {
-            from,
-            tau: [a, b][from] / (a + b),
-        }
-    }
-}
-
-/// The lexicographically smaller end, by number.
+/// Whether the end is lexicographically smaller than the start.
 #[cold]
-fn lesser(segment: &Segment<f64>) -> usize {
-    usize::from(segment.start.to_array() > segment.end.to_array())
+fn is_smaller(segment: &Segment<f64>) -> bool {
+    end_is_smaller(segment.start, segment.end)
 }
 
 /// The step to a crossed face. The way its boundary values are found depends
 /// on the two points and the face alone, not on which point comes first nor on
 /// the algorithm: rounded values where they are exact, double-double where the
 /// filter is certain, else exact.
-fn step(staged: &mut Staged<'_>, face: Face) -> Step {
+fn step(staged: &mut Staged<'_>, face: Face) -> Step<f64> {
     if staged.lattice {
         let [p, q] = [0, 1].map(|i| staged.values[i].of(face as usize).abs());
-        return Step::new(p, q, &staged.segment);
+        return step_from(p, q, &staged.segment);
     }
     if staged.certain(face) {
         let Segment { start, end } = staged.segment;
         let precise = &staged.filter().precise;
         let value = |p| precise.magnitudes(Single, [face as usize], [p]);
-        return Step::new(value(start), value(end), &staged.segment);
+        return step_from(value(start), value(end), &staged.segment);
     }
     // Near and far of the identity pose are one subtraction, the same bits as
     // in double-double, unless they overflow.
     let [p, q] = [0, 1].map(|i| staged.values[i].of(face as usize).abs());
     let depth = matches!(face, Face::Near | Face::Far) && staged.filter().identity;
     if depth && p + q < f64::MAX {
-        return Step::new(p, q, &staged.segment);
+        return step_from(p, q, &staged.segment);
     }
     exact_step(staged, face)
 }
 
 #[cold]
-fn exact_step(staged: &mut Staged<'_>, face: Face) -> Step {
+fn exact_step(staged: &mut Staged<'_>, face: Face) -> Step<f64> {
     if let Some([a, b]) = staged.expansions(face) {
-        return Step::new(a.estimate().abs(), b.estimate().abs(), &staged.segment);
+        return step_from(a.estimate().abs(), b.estimate().abs(), &staged.segment);
     }
     let [a, b] = staged.integers(face).map(Dyadic::abs);
     let order = (&a - &b).sign();
-    let from = match order {
-        Ordering::Less => 0,
-        Ordering::Equal => lesser(&staged.segment),
-        Ordering::Greater => 1,
+    let from_end = match order {
+        Ordering::Less => false,
+        Ordering::Equal => is_smaller(&staged.segment),
+        Ordering::Greater => true,
     };
+    let nearer = if from_end { &b } else { &a };
     Step {
-        from,
-        tau: [&a, &b][from].round_quotient(&(&a + &b)),
+        from_end,
+        tau: nearer.round_quotient(&(&a + &b)),
     }
 }
 
@@ -197,25 +187,18 @@ fn fast<T: Real>(staged: &mut Staged<'_>, face: Face, faces: FaceSet) -> (T, Vec
 
 /// Parameter and point of a step.
 #[inline(always)]
-pub(super) fn place<T: Real>(
+fn place<T: Real>(
     filter: &Filter,
     segment: &Segment<f64>,
-    Step { from, tau }: Step,
+    step: Step<f64>,
     faces: FaceSet,
 ) -> (T, Vec3<T>) {
     let Segment { start, end } = *segment;
-    let (base, tau, t) = if from == 0 {
-        (start, tau, tau)
-    } else {
-        (end, -tau, 1.0 - tau)
-    };
-    let difference = end - start;
-    let mut point = base + difference * tau;
-    if !(point.x + point.y + point.z).is_finite() {
-        point = huge(segment, base, tau);
+    let [x, y, z] = [0, 1, 2].map(|k| step.coordinate(start[k], end[k]));
+    let mut point = Vec3::new(x, y, z);
+    if !(x + y + z).is_finite() {
+        point = huge(segment, step);
     }
-    // The sign of a zero must not depend on the order of the ends.
-    point = point + Vec3::default();
     if filter.identity {
         // The exact hit has exactly this coordinate.
         if faces.contains(Face::Near) {
@@ -224,14 +207,16 @@ pub(super) fn place<T: Real>(
             point.z = filter.far;
         }
     }
-    (T::from_f64(t), Vec3::from_f64(point))
+    (T::from_f64(step.parameter()), Vec3::from_f64(point))
 }
 
 /// Where the difference of the ends overflows, or the sum of the coordinates.
 #[cold]
-fn huge(segment: &Segment<f64>, base: Vec3<f64>, tau: f64) -> Vec3<f64> {
-    let halves = segment.end * 0.5 - segment.start * 0.5;
-    (base * 0.5 + halves * tau) * 2.0
+fn huge(segment: &Segment<f64>, step: Step<f64>) -> Vec3<f64> {
+    let Segment { start, end } = *segment;
+    let nearer = if step.from_end { end } else { start };
+    let half = end * 0.5 - start * 0.5;
+    (nearer * 0.5 + half * step.signed()) * 2.0 + Vec3::default()
 }
 
 /// Correctly rounded parameter and point.
@@ -245,8 +230,9 @@ fn nearest<T: Real>(staged: &mut Staged<'_>, face: Face) -> (T, Vec3<T>) {
     (exact.parameter(), exact.rounded())
 }
 
-/// 2^-99: covers the relative errors of a handful of double-double operations.
-const DD_ERROR: f64 = 1.5777218104420236e-30;
+/// Upper bound of the relative error of a few double-double operations: 2^-99 = 128 u^2, with at
+/// most 15 u^2 for one.
+const DOUBLE_DOUBLE_RELATIVE_ERROR: f64 = 128.0 * f64::UNIT_ROUNDOFF * f64::UNIT_ROUNDOFF;
 
 fn nearest_double_double<T: Real>(staged: &Staged<'_>, face: Face) -> Option<(T, Vec3<T>)> {
     let filter = staged.filter();
@@ -259,7 +245,7 @@ fn nearest_double_double<T: Real>(staged: &Staged<'_>, face: Face) -> Option<(T,
     // The values are within 60 u^2 scale < 2^-54 thresholds.
     let threshold = |v| filter.threshold(face, v);
     let threshold = threshold(staged.values[0].size).max(threshold(staged.values[1].size));
-    let tau_error = 1.2e-16 * threshold / total.hi + DD_ERROR;
+    let tau_error = 1.2e-16 * threshold / total.hi + DOUBLE_DOUBLE_RELATIVE_ERROR;
     let t = if from_start {
         tau
     } else {
@@ -270,11 +256,9 @@ fn nearest_double_double<T: Real>(staged: &Staged<'_>, face: Face) -> Option<(T,
     } else {
         (end, start)
     };
-    let level = filter
-        .identity
-        .then(|| staged.frustum.shape().constant_coordinate(face));
+    let exact = filter.identity.then(|| staged.frustum.shape().constant_coordinate(face));
     let coordinate = |k: usize| {
-        if let Some(Some((axis, at))) = level
+        if let Some(Some((axis, at))) = exact
             && axis == k
         {
             return Some(T::from_f64(at + 0.0));
@@ -284,7 +268,8 @@ fn nearest_double_double<T: Real>(staged: &Staged<'_>, face: Face) -> Option<(T,
         }
         let d = Dd::difference(to[k], from[k]);
         let v = Dd::new(from[k], 0.0).add(tau.mul(d));
-        let error = d.hi.abs() * tau_error + DD_ERROR * (from[k].abs() + d.hi.abs());
+        let error =
+            d.hi.abs() * tau_error + DOUBLE_DOUBLE_RELATIVE_ERROR * (from[k].abs() + d.hi.abs());
         round(v, error)
     };
     let point = Vec3::new(coordinate(0)?, coordinate(1)?, coordinate(2)?);

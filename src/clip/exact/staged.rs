@@ -1,12 +1,12 @@
-//! The predicates in stages, each of which hands on what it cannot settle.
+//! The predicates in stages: each leaves to the next one what it cannot decide.
 //!
 //! 1. *Lattice*: on coarse coordinates floating point makes no error at all,
-//!    so that touching is decided as fast as the rest. CAD data lives there.
+//!    so that touches are decided as fast as other cases. Typical of CAD data.
 //! 2. *Filter*: floating point with an error bound ([`Filter`]).
 //! 3. *Double-double*: the filter again with 2^-53 of its error.
-//! 4. *Expansions*, inside the range of exponents where they are exact, while
-//!    they stay short: exact zeros off the lattice.
-//! 5. *Integers*, for everything else. The only stage that allocates.
+//! 4. *Expansions*, in the range of exponents where they are exact, while
+//!    they stay short: for exact zeros off the lattice.
+//! 5. *Integers*, for all other cases. The only stage that allocates.
 
 use crate::clip::StageCounts;
 use crate::clip::predicates::Predicates;
@@ -19,7 +19,7 @@ use crate::frustum::{Face, Frustum};
 use crate::math::{End, Segment, Vec3};
 use std::cmp::Ordering;
 
-/// A segment and a frustum, and what is known about them.
+/// A segment, a frustum, and the signs that are known.
 pub(crate) struct Staged<'a> {
     pub(crate) frustum: &'a Frustum,
     pub(crate) segment: Segment<f64>,
@@ -27,22 +27,24 @@ pub(crate) struct Staged<'a> {
     pub(crate) values: [Values; 2],
     /// Whether plain arithmetic is exact here.
     pub(crate) lattice: bool,
-    /// What is known of the signs at start and end, in bits by face.
+    /// The known signs at start and end.
     known: [Known; 2],
     counts: StageCounts,
     /// Whether the filter has failed for this segment.
     failed: bool,
 }
 
+/// Signs at an end, in bits by face.
 #[derive(Clone, Copy, Default)]
 struct Known {
+    /// Whether the sign is known.
     any: u8,
     outside: u8,
     on: u8,
 }
 
-/// Products of a double-double bound and a value may underflow; this does not.
-const TINY: f64 = 1e-300;
+/// Upper bound of the underflow in the sum of products that bounds a double-double cross product.
+const UNDERFLOW: f64 = 1e-300;
 
 impl<'a> Staged<'a> {
     pub(crate) fn new(frustum: &'a Frustum, segment: Segment<f64>) -> Self {
@@ -124,7 +126,7 @@ impl<'a> Staged<'a> {
         self.integer(face, p).sign()
     }
 
-    /// Both boundary values of a face as expansions, if there is room.
+    /// Both boundary values of a face as expansions, if they do not overflow.
     pub(crate) fn expansions(&mut self, face: Face) -> Option<[Expansion; 2]> {
         let Segment { start, end } = self.segment;
         if !(self.filter().expansions && fits(start) && fits(end)) {
@@ -194,7 +196,7 @@ impl<'a> Staged<'a> {
         let t = |face, size| DOUBLE_DOUBLE_ERROR_PER_THRESHOLD * filter.threshold(face, size);
         let bound = t(a, sq) * pb.hi.abs() + t(b, sp) * qa.hi.abs();
         let bound = bound + t(a, sp) * qb.hi.abs() + t(b, sq) * pa.hi.abs();
-        let bound = bound + (t(a, sp) * t(b, sq) + t(a, sq) * t(b, sp)) + TINY;
+        let bound = bound + (t(a, sp) * t(b, sq) + t(a, sq) * t(b, sp)) + UNDERFLOW;
         if cross.hi.abs() > bound {
             cross.hi.partial_cmp(&0.0)
         } else {
@@ -220,6 +222,7 @@ impl<'a> Staged<'a> {
         cross.sign()
     }
 
+    /// Finds a sign.
     fn learn(&mut self, face: Face, end: End) {
         let values = self.values[end as usize];
         let sign = if self.lattice {

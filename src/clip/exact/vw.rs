@@ -2,42 +2,34 @@
 //!
 //! ```text
 //! values of TV and TW at both ends, as in the plain tier, and one threshold
-//! outside   a face with both values below -threshold
-//! inside    every value above threshold
-//! hand on   a value within the threshold of zero
-//! else      for each crossed face the parameter t and a bound d of its error;
-//!           outside if some entry - d > some exit + d; hand on what overlaps
+//! triage       outside, inside, or all signs certain (`clip/rules/triage.rs`)
+//! certificate  for what crosses faces, by rounded parameters (`clip/rules/certificate.rs`)
+//! exact        the rest
 //! ```
 //!
-//! What is handed on goes through the same predicates as every other
-//! algorithm, and the points are constructed by the same rule, so that the
-//! result does not depend on which way was taken.
+//! The rest goes through the same predicates as every other algorithm, and the points are
+//! constructed by the same rule, so that the result does not depend on which way was taken. The
+//! values are passed along.
 //!
-//! # The parameters' error
-//! With both values of a face within e of the exact ones, p and q of opposite
-//! signs, `p~/(p~ - q~)` differs from `p/(p - q)` by at most e / |p~ - q~|
-//! (put the difference over one denominator). Rounding of the difference, its
-//! reciprocal and the product add less than 4 u, the face's number in the last
-//! three bits at most 7 units of 2 u. The code takes a whole threshold for e,
-//! which is 13 times what the values can be off, and 2^-48 = 32 u. Near and far
-//! values of the identity pose have a relative error of u instead, which moves
-//! t by u / 2 at most. `proofs/crossing.gappa` has these bounds.
+//! A register holds two faces here, so that extremes are combined across its two lanes at the end;
+//! four segments a register (`clip/many/certified.rs`) need no such step.
 
 use super::decide::{At, Decision};
-use super::pair::{self, Ends};
+use super::pair;
 use super::staged::Staged;
 use super::{lattice, points};
-use crate::clip::plain::outside;
 use crate::clip::predicates::{Predicates, Role, Span};
+use crate::clip::rules::certificate::{
+    ENTRIES_ABOVE, EXITS_ABOVE, FaceCrossing, Latest, error_of_two, error_of_values,
+};
+use crate::clip::rules::triage::{Extremes, Signs};
+use crate::clip::whole::{inside, outside};
 use crate::clip::{Accuracy, Class, SegmentClip, StageCounts};
 use crate::exact::float::Pair;
 use crate::frustum::eval::filter::{Filter, Values};
 use crate::frustum::{Face, FaceSet, Form, Frustum, General, Layout, Orthographic, Symmetric};
 use crate::math::{End, NonFinite, Real, Segment};
 use wide::f64x2;
-
-/// 2^-48: rounding, and the face's number in the last three bits.
-pub(crate) const ROUNDING: f64 = 3.552713678800501e-15;
 
 /// Clips with exact class and sets.
 #[inline]
@@ -76,11 +68,32 @@ fn clip_in<T: Real, L: Layout>(
         return Ok(result);
     }
     match triage(filter, &p, &q) {
-        Triage::Outside => Ok(outside()),
-        Triage::Inside => Ok(pair::inside(segment)),
-        Triage::Crossing => cross(frustum, segment, accuracy, counts, &p, &q),
-        Triage::Unsure => super::clip(frustum, segment, accuracy, counts, |s| span(s)),
+        Verdict::Outside => Ok(outside()),
+        Verdict::Inside => Ok(inside(segment)),
+        Verdict::Crossing => cross(frustum, segment, accuracy, counts, &[p, q]),
+        Verdict::Uncertain => exactly(frustum, segment, accuracy, counts, &[p, q]),
     }
+}
+
+/// Clips by exact predicates, from the values that proved too little. Out of line, so that the
+/// early outs carry nothing of it.
+#[inline(never)]
+fn exactly<T: Real>(
+    frustum: &Frustum,
+    segment: &Segment<T>,
+    accuracy: Accuracy,
+    counts: &mut StageCounts,
+    values: &[Values; 2],
+) -> Result<SegmentClip<T>, NonFinite> {
+    segment.check_finite()?;
+    let wide = segment.to_f64();
+    let [p, q] = values;
+    // With `Fast` it would have been clipped on the lattice.
+    let lattice = accuracy != Accuracy::Fast && frustum.filter().on_lattice(&wide, p, q);
+    let staged = Staged::with(frustum, wide, *values, lattice);
+    Ok(super::clip_staged(staged, segment, accuracy, counts, |s| {
+        span(s)
+    }))
 }
 
 /// Clips what certainly has ends on both sides of some faces. Out of line, so
@@ -91,10 +104,10 @@ fn cross<T: Real>(
     segment: &Segment<T>,
     accuracy: Accuracy,
     counts: &mut StageCounts,
-    p: &Values,
-    q: &Values,
+    values: &[Values; 2],
 ) -> Result<SegmentClip<T>, NonFinite> {
     let filter = frustum.filter();
+    let [p, q] = values;
     let thresholds = filter.crossing_thresholds(p.size + q.size);
     match certify(&p.pairs, &q.pairs, thresholds) {
         Certificate::Outside => return Ok(outside()),
@@ -102,50 +115,48 @@ fn cross<T: Real>(
             return Ok(fast(filter, &segment.to_f64(), &crossing));
         }
         Certificate::Cross(crossing) => {
-            let mut staged = Staged::with(frustum, segment.to_f64(), [*p, *q], false);
+            let mut staged = Staged::with(frustum, segment.to_f64(), *values, false);
             let decision = crossing.decision();
             let result = points::build(&mut staged, segment, &decision, accuracy);
             staged.add_to(counts);
             return Ok(result);
         }
-        Certificate::None => {}
+        Certificate::Uncertain => {}
     }
-    super::clip(frustum, segment, accuracy, counts, |s| span(s))
+    exactly(frustum, segment, accuracy, counts, values)
 }
 
 /// What the rounded values' signs prove.
-enum Triage {
+enum Verdict {
     Outside,
     Inside,
     /// All signs are certain; some face is crossed.
     Crossing,
-    Unsure,
+    Uncertain,
 }
 
 #[inline(always)]
-fn triage(filter: &Filter, p: &Values, q: &Values) -> Triage {
+fn triage(filter: &Filter, p: &Values, q: &Values) -> Verdict {
     let size = p.size + q.size;
     if !filter.covers(size) {
-        return Triage::Unsure;
+        return Verdict::Uncertain;
     }
     let (depth, side) = filter.crossing_thresholds(size);
-    let (depth, side) = (f64x2::splat(depth), f64x2::splat(side));
+    let thresholds = (f64x2::splat(depth), f64x2::splat(side));
     let (a, b) = (&p.pairs, &q.pairs);
-    let greater = |i: usize| a[i].fast_max(b[i]);
-    let sides = greater(1).fast_min(greater(2));
-    if (greater(0).simd_lt(-depth) | sides.simd_lt(-side)).any() {
-        return Triage::Outside;
-    }
-    let beyond = |v: [f64x2; 3]| (v[0].simd_gt(depth) & v[1].fast_min(v[2]).simd_gt(side)).all();
-    let lesser = |i: usize| a[i].fast_min(b[i]);
-    if beyond([lesser(0), lesser(1), lesser(2)]) {
-        return Triage::Inside;
-    }
-    let nearer = |i: usize| a[i].abs().fast_min(b[i].abs());
-    if beyond([nearer(0), nearer(1), nearer(2)]) {
-        Triage::Crossing
+    let mut signs = Signs {
+        depth: Extremes::new(a[0], b[0]),
+        side: Extremes::new(a[1], b[1]),
+    };
+    signs.side.add(a[2], b[2]);
+    if signs.outside(thresholds).any() {
+        Verdict::Outside
+    } else if signs.inside(thresholds).all() {
+        Verdict::Inside
+    } else if signs.certain(thresholds).all() {
+        Verdict::Crossing
     } else {
-        Triage::Unsure
+        Verdict::Uncertain
     }
 }
 
@@ -155,11 +166,11 @@ enum Certificate {
     /// Crosses one face at each end that is clipped.
     Cross(Crossing),
     /// Nothing.
-    None,
+    Uncertain,
 }
 
-/// The face crossed at entry and exit, by number, and whether it is: else the
-/// number stands for nothing.
+/// The indices of the faces crossed at entry and exit, and whether there is a crossing: without
+/// one the index stands for nothing.
 struct Crossing {
     faces: [usize; 2],
     /// All bits set or none.
@@ -189,67 +200,54 @@ impl Crossing {
     }
 }
 
-/// The greatest two of six numbers in pairs `v`, and of six in `w`: greatest
-/// of both, then second of both.
+/// The greatest two of all lanes of `v`, in the first lanes, and of `w`, in the second ones.
 #[inline(always)]
-fn greatest_two(v: [f64x2; 3], w: [f64x2; 3]) -> (f64x2, f64x2) {
-    let lanes = |v: [f64x2; 3]| {
-        let (high, low) = (v[0].fast_max(v[1]), v[0].fast_min(v[1]));
-        (high.fast_max(v[2]), low.fast_max(high.fast_min(v[2])))
+fn greatest_two(v: [f64x2; 3], w: [f64x2; 3]) -> Latest<f64x2> {
+    let lanes = |[a, b, c]: [f64x2; 3]| {
+        let mut latest = Latest::new(a, b);
+        latest.add(c);
+        latest
     };
-    let ((v, v_second), (w, w_second)) = (lanes(v), lanes(w));
-    let [a, b] = f64x2::transpose([v, w]);
-    let [c, d] = f64x2::transpose([v_second, w_second]);
-    (a.fast_max(b), a.fast_min(b).fast_max(c.fast_max(d)))
+    let (v, w) = (lanes(v), lanes(w));
+    let [a, b] = f64x2::transpose([v.first, w.first]);
+    let [c, d] = f64x2::transpose([v.second, w.second]);
+    Latest {
+        first: a.fast_max(b),
+        second: a.fast_min(b).fast_max(c.fast_max(d)),
+    }
 }
 
-/// For values of certain sign, some of them negative. Selects, not branches:
-/// which faces are crossed cannot be predicted. The number of the face rides
-/// in the parameter's last three bits.
+/// For values of certain sign, some of them negative.
 #[inline(always)]
 fn certify(a: &[f64x2; 3], b: &[f64x2; 3], (depth, side): (f64, f64)) -> Certificate {
-    let all = f64x2::splat;
-    let keep = all(f64::from_bits(!7));
-    // The later of entries, and the later of exits, where later is less: faces
-    // that are not crossed stand where they change nothing.
-    let (mut enter, mut leave, mut scales) = ([all(0.0); 3], [all(0.0); 3], [all(0.0); 3]);
-    for i in 0..3 {
-        let number = [
-            f64::from_bits(2 * i as u64),
-            f64::from_bits(2 * i as u64 + 1),
-        ];
-        let scale = all(1.0) / (a[i] - b[i]);
-        let t = a[i] * scale;
-        let (entering, leaving) = (a[i].simd_lt(all(0.0)), b[i].simd_lt(all(0.0)));
-        enter[i] = (entering.bitselect(t, all(-1.0)) & keep) | f64x2::new(number);
-        leave[i] = (leaving.bitselect(-t, all(-2.0)) & keep) | f64x2::new(number);
-        scales[i] = (entering ^ leaving) & scale.abs();
-    }
-    // What two parameters can be off, together.
-    let error = (all(depth) * scales[0]).fast_max(all(side) * scales[1].fast_max(scales[2]));
-    let [e, f] = error.to_array();
-    let error = 2.0 * (if e > f { e } else { f } + ROUNDING);
-    let (first, second) = greatest_two(enter, leave);
-    let [last_enter, minus_first_leave] = first.to_array();
+    let tag = |face: u64| f64x2::new([f64::from_bits(face), f64::from_bits(face + 1)]);
+    let crossing = |i: usize| FaceCrossing::new(a[i], b[i], tag(2 * i as u64));
+    let [c, d, e] = [crossing(0), crossing(1), crossing(2)];
+    let thresholds = (f64x2::splat(depth), f64x2::splat(side));
+    let error = error_of_values(thresholds, [c.scale, d.scale.fast_max(e.scale)]);
+    let [v, w] = error.to_array();
+    let error = error_of_two(if v > w { v } else { w });
+    let latest = greatest_two([c.enter, d.enter, e.enter], [c.leave, d.leave, e.leave]);
+    let [last_enter, minus_first_leave] = latest.first.to_array();
     let overlap = last_enter + minus_first_leave;
     if overlap > error {
         return Certificate::Outside;
     }
-    let uncrossed = first.simd_lt(f64x2::new([-0.5, -1.5]));
-    let single = (second + all(error)).simd_lt(first) | uncrossed;
-    if single.all() & (overlap < -error) {
+    let above = f64x2::new([ENTRIES_ABOVE, EXITS_ABOVE]);
+    let (uncrossed, certain) = latest.alone(f64x2::splat(error), above);
+    if certain.all() & (overlap < -error) {
         Certificate::Cross(Crossing {
-            faces: [number(last_enter), number(minus_first_leave)],
+            faces: [face_index(last_enter), face_index(minus_first_leave)],
             clipped: !uncrossed,
         })
     } else {
-        Certificate::None
+        Certificate::Uncertain
     }
 }
 
-/// The face's number in a parameter's last bits.
+/// The tag of a parameter.
 #[inline(always)]
-fn number(t: f64) -> usize {
+fn face_index(t: f64) -> usize {
     (t.to_bits() & 7) as usize
 }
 
@@ -259,16 +257,16 @@ fn fast<T: Real>(filter: &Filter, wide: &Segment<f64>, crossing: &Crossing) -> S
     let Crossing { faces, clipped } = *crossing;
     let a = filter.precise.magnitudes(Pair, faces, [wide.start; 2]);
     let b = filter.precise.magnitudes(Pair, faces, [wide.end; 2]);
-    let ends = Ends {
+    let ends = pair::Ends {
         crossing: clipped,
         end: f64x2::new([0.0, f64::from_bits(u64::MAX)]),
     };
-    let points = pair::construct::<false>(filter, wide, faces, [a, b], &ends);
+    let places = pair::construct::<false>(filter, wide, faces, [a, b], ends);
     let clipped = pair::flags(clipped);
     let set = |i: usize| FaceSet::from_bits(u8::from(clipped[i]) << faces[i]);
     pair::assemble(
         Class::Cross,
-        &points,
+        &places,
         clipped,
         [set(0), set(1)],
         FaceSet::EMPTY,

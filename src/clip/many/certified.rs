@@ -1,13 +1,16 @@
-//! Exact V/W, four segments at a time: triage and certificates as in
-//! `clip/exact/vw.rs`, where their proofs are.
+//! Exact V/W, four segments at a time: the rules of `clip/rules/`, with a face a register.
 
-use super::Chunk;
+use super::Block;
 use super::lanes::{Quad, ends};
 use super::lattice;
 use super::points::Parts;
 use super::queue::{Crossed, Queues};
-use crate::clip::exact::{self, vw::ROUNDING};
-use crate::clip::plain::outside;
+use crate::clip::exact;
+use crate::clip::rules::certificate::{
+    ENTRIES_ABOVE, EXITS_ABOVE, FaceCrossing, Latest, error_of_two, error_of_values,
+};
+use crate::clip::rules::triage::{Extremes, Signs};
+use crate::clip::whole::{inside, outside};
 use crate::clip::{Accuracy, StageCounts};
 use crate::frustum::Layout;
 use crate::frustum::eval::filter::Filter;
@@ -15,16 +18,16 @@ use crate::math::{NonFiniteAt, Real, Segment, Vec3};
 use fearless_simd::prelude::*;
 use fearless_simd::{f64x4, mask64x4, u64x4};
 
-/// A chunk on its way.
+/// A block on its way.
 pub(super) struct Run<'a, S, T> {
     pub(super) quad: Quad<S>,
-    pub(super) chunk: Chunk<'a, T>,
+    pub(super) block: Block<'a, T>,
     pub(super) accuracy: Accuracy,
     pub(super) queues: &'a mut Queues,
     pub(super) counts: &'a mut StageCounts,
 }
 
-/// The six boundary values at both ends of four segments, sizes and thresholds.
+/// The six boundary values at both ends of four segments, their sizes and thresholds.
 pub(super) struct Values<S: Simd> {
     pub(super) a: [f64x4<S>; 6],
     pub(super) b: [f64x4<S>; 6],
@@ -51,98 +54,62 @@ impl<S: Simd> Values<S> {
         }
     }
 
-    /// Which segments' signs prove that they are outside, inside, crossing.
+    /// The segments whose signs prove that they are outside, inside, crossing.
     #[inline(always)]
     fn triage(&self) -> [mask64x4<S>; 3] {
-        let mut greatest = Least::new(self.a[0].max(self.b[0]), self.a[2].max(self.b[2]));
-        let mut least = Least::new(self.a[0].min(self.b[0]), self.a[2].min(self.b[2]));
-        let mut nearest = Least::new(
-            self.a[0].abs().min(self.b[0].abs()),
-            self.a[2].abs().min(self.b[2].abs()),
-        );
-        for i in [1, 3, 4, 5] {
-            let (a, b) = (self.a[i], self.b[i]);
-            greatest.add(i, a.max(b));
-            least.add(i, a.min(b));
-            nearest.add(i, a.abs().min(b.abs()));
+        let (a, b) = (&self.a, &self.b);
+        let mut signs = Signs {
+            depth: Extremes::new(a[0], b[0]),
+            side: Extremes::new(a[2], b[2]),
+        };
+        signs.depth.add(a[1], b[1]);
+        for i in 3..6 {
+            signs.side.add(a[i], b[i]);
         }
-        let outside = greatest.depth.simd_lt(-self.depth) | greatest.side.simd_lt(-self.side);
-        let inside = least.beyond(self.depth, self.side);
-        let crossing = nearest.beyond(self.depth, self.side);
-        let outside = self.covered & outside;
-        let inside = self.covered & inside & !outside;
-        [
-            outside,
-            inside,
-            self.covered & crossing & !outside & !inside,
-        ]
+        let thresholds = (self.depth, self.side);
+        let outside = self.covered & signs.outside(thresholds);
+        let inside = self.covered & signs.inside(thresholds) & !outside;
+        let crossing = self.covered & signs.certain(thresholds) & !outside & !inside;
+        [outside, inside, crossing]
     }
 
-    /// Latest entry and earliest exit, as `certify` in `clip/exact/vw.rs`.
+    #[inline(always)]
+    fn crossing(&self, quad: Quad<S>, face: usize) -> FaceCrossing<f64x4<S>> {
+        let tag = quad.splat(f64::from_bits(face as u64));
+        FaceCrossing::new(self.a[face], self.b[face], tag)
+    }
+
+    /// Latest entry and earliest exit, and what they prove.
     #[inline(always)]
     fn certify<L: Layout>(&self, quad: Quad<S>) -> Certificate<S> {
-        let splat = |v: f64| quad.splat(v);
-        let mut enter = Two::new(splat(-4.0));
-        let mut leave = Two::new(splat(-4.0));
-        let mut scales = [splat(0.0); 2];
-        for i in 0..6 {
-            if i == 1 && !L::FAR {
+        let (near, left) = (self.crossing(quad, 0), self.crossing(quad, 2));
+        let mut enter = Latest::new(near.enter, left.enter);
+        let mut leave = Latest::new(near.leave, left.leave);
+        let mut scales = [near.scale, left.scale];
+        for face in [1, 3, 4, 5] {
+            if face == 1 && !L::FAR {
                 continue;
             }
-            let (a, b) = (self.a[i], self.b[i]);
-            let scale = splat(1.0) / (a - b);
-            let t = a * scale;
-            let (entering, leaving) = (a.simd_lt(0.0), b.simd_lt(0.0));
-            enter.add(numbered(entering.select(t, splat(-1.0)), i as u64));
-            leave.add(numbered(leaving.select(-t, splat(-2.0)), i as u64));
-            let scale = (entering ^ leaving).select(scale.abs(), splat(0.0));
-            let of = usize::from(i > 1);
-            scales[of] = scales[of].max(scale);
+            let other = self.crossing(quad, face);
+            enter.add(other.enter);
+            leave.add(other.leave);
+            let scale = &mut scales[usize::from(face > 1)];
+            *scale = scale.max(other.scale);
         }
-        // What two parameters can be off, together.
-        let error = (self.depth * scales[0]).max(self.side * scales[1]);
-        let error = (error + ROUNDING) * 2.0;
+        let error = error_of_two(error_of_values((self.depth, self.side), scales));
         let overlap = enter.first + leave.first;
-        let uncrossed = [enter.first.simd_lt(-0.5), leave.first.simd_lt(-1.5)];
+        let (no_entry, entry_certain) = enter.alone(error, quad.splat(ENTRIES_ABOVE));
+        let (no_exit, exit_certain) = leave.alone(error, quad.splat(EXITS_ABOVE));
         Certificate {
             outside: overlap.simd_gt(error),
-            certain: (enter.single(error) | uncrossed[0])
-                & (leave.single(error) | uncrossed[1])
-                & overlap.simd_lt(-error),
-            clipped: uncrossed.map(|none| (!none).to_bitmask()),
+            certain: entry_certain & exit_certain & overlap.simd_lt(-error),
+            clipped: [no_entry, no_exit].map(|none| (!none).to_bitmask()),
             faces: (enter.first.to_bits() & 7) | ((leave.first.to_bits() & 7) << 3),
         }
     }
 }
 
-/// The least of near and far, and of the sides.
-struct Least<S: Simd> {
-    depth: f64x4<S>,
-    side: f64x4<S>,
-}
-
-impl<S: Simd> Least<S> {
-    #[inline(always)]
-    fn new(depth: f64x4<S>, side: f64x4<S>) -> Self {
-        Self { depth, side }
-    }
-
-    #[inline(always)]
-    fn add(&mut self, face: usize, v: f64x4<S>) {
-        if face < 2 {
-            self.depth = self.depth.min(v);
-        } else {
-            self.side = self.side.min(v);
-        }
-    }
-
-    #[inline(always)]
-    fn beyond(&self, depth: f64x4<S>, side: f64x4<S>) -> mask64x4<S> {
-        self.depth.simd_gt(depth) & self.side.simd_gt(side)
-    }
-}
-
-/// What rounded parameters prove: see `Certificate` in `clip/exact/vw.rs`.
+/// What rounded parameters prove.
 struct Certificate<S: Simd> {
     outside: mask64x4<S>,
     certain: mask64x4<S>,
@@ -161,43 +128,8 @@ fn on_grid<S: Simd>(round: f64, v: Vec3<f64x4<S>>) -> mask64x4<S> {
     x & y & z
 }
 
-/// A parameter with the face's number in its last three bits.
-#[inline(always)]
-fn numbered<S: Simd>(t: f64x4<S>, face: u64) -> f64x4<S> {
-    f64x4::from_bits((t.to_bits() & !7) | face)
-}
-
-/// The greatest two so far.
-#[derive(Clone, Copy)]
-struct Two<S: Simd> {
-    first: f64x4<S>,
-    second: f64x4<S>,
-}
-
-impl<S: Simd> Two<S> {
-    #[inline(always)]
-    fn new(least: f64x4<S>) -> Self {
-        Two {
-            first: least,
-            second: least,
-        }
-    }
-
-    #[inline(always)]
-    fn add(&mut self, v: f64x4<S>) {
-        self.second = self.second.max(self.first.min(v));
-        self.first = self.first.max(v);
-    }
-
-    /// Where the greatest is that by more than an error.
-    #[inline(always)]
-    fn single(&self, error: f64x4<S>) -> mask64x4<S> {
-        (self.second + error).simd_lt(self.first)
-    }
-}
-
 impl<S: Simd, T: Real> Run<'_, S, T> {
-    /// Clips the chunk.
+    /// Clips the block.
     #[inline(always)]
     pub(super) fn clip<L: Layout>(&mut self) -> Result<(), NonFiniteAt> {
         self.queues.clear();
@@ -209,15 +141,15 @@ impl<S: Simd, T: Real> Run<'_, S, T> {
         }
         for &item in self.queues.inside.items() {
             let index = item as usize;
-            self.chunk.clips[index] = exact::inside(&self.chunk.segments[index]);
+            self.block.clips[index] = inside(&self.block.segments[index]);
         }
-        self.unsure()
+        self.uncertain()
     }
 
-    /// All segments, four at a time; the last group is filled up with its last one.
+    /// All segments, four at a time; the last group is filled up with its last segment.
     #[inline(always)]
     fn triage<L: Layout>(&mut self) {
-        let (groups, rest) = self.chunk.segments.as_chunks::<4>();
+        let (groups, rest) = self.block.segments.as_chunks::<4>();
         for (k, group) in groups.iter().enumerate() {
             self.triage_four::<L>(group.each_ref(), 4 * k, 0xf);
         }
@@ -227,10 +159,10 @@ impl<S: Simd, T: Real> Run<'_, S, T> {
         }
     }
 
-    /// `present` has the bits of the segments that are there.
+    /// `present` has the bits of the segments that count.
     #[inline(always)]
     fn triage_four<L: Layout>(&mut self, group: [&Segment<T>; 4], base: usize, present: u64) {
-        let filter = self.chunk.frustum.filter();
+        let filter = self.block.frustum.filter();
         let [p, q] = ends(group);
         let (p, q) = (self.quad.points(p), self.quad.points(q));
         let values = Values::new::<L>(filter, p, q);
@@ -240,51 +172,51 @@ impl<S: Simd, T: Real> Run<'_, S, T> {
         let mut crossing = crossing.to_bitmask() & present;
         let mut lattice = 0;
         if self.accuracy != Accuracy::Fast {
-            // Points are constructed elsewhere.
+            // They are clipped one by one, with their points.
             crossing = 0;
         } else if let Some((round, limit)) = filter.lattice() {
             let small = values.sizes[0].simd_lt(limit) & values.sizes[1].simd_lt(limit);
             let on = small & on_grid(round, p) & on_grid(round, q);
             lattice = on.to_bitmask() & present;
-            // Those that are settled are counted here, the rest when they are.
+            // Settled ones are counted here, the others when they are settled.
             self.counts.lattice += u64::from((lattice & settled).count_ones());
             lattice &= !settled;
             crossing &= !lattice;
         }
-        let unsure = present & !(settled | crossing | lattice);
+        let uncertain = present & !(settled | crossing | lattice);
         let items = [0, 1, 2, 3].map(|j| (base + j) as u32);
         self.queues.inside.append(items, inside);
         self.queues.crossing.append(items, crossing);
         self.queues.lattice.append(items, lattice);
-        self.queues.unsure.append(items, unsure);
+        self.queues.uncertain.append(items, uncertain);
     }
 
-    /// What plain arithmetic clips without an error.
+    /// Clips the segments for which plain arithmetic makes no error.
     #[inline(always)]
     fn lattice<L: Layout>(&mut self) {
         let Queues {
-            lattice, unsure, ..
+            lattice, uncertain, ..
         } = &mut *self.queues;
-        let Chunk {
+        let Block {
             frustum,
             segments,
             clips,
-        } = &mut self.chunk;
+        } = &mut self.block;
         let filter = frustum.filter();
-        let mut nowhere = outside();
+        let mut discarded = outside();
         for (items, count) in lattice.groups::<4>() {
             let [p, q] = ends(items.map(|i| &segments[i as usize]));
             let (p, q) = (self.quad.points(p), self.quad.points(q));
             let values = Values::new::<L>(filter, p, q);
             let found = lattice::Clips::new(self.quad, filter, &values, p, q);
             let present = 0xf >> (4 - count);
-            // What has no length is clipped, and counted, alone.
-            unsure.append(items, found.still & present);
+            // A segment of zero length is clipped, and counted, alone.
+            uncertain.append(items, found.still & present);
             self.counts.lattice += u64::from((present & !found.still).count_ones());
             for (j, item) in items.into_iter().enumerate() {
                 // A pointer is chosen without a branch.
                 let place = if (found.outside | found.still) >> j & 1 != 0 {
-                    &mut nowhere
+                    &mut discarded
                 } else {
                     &mut clips[item as usize]
                 };
@@ -293,24 +225,24 @@ impl<S: Simd, T: Real> Run<'_, S, T> {
         }
     }
 
-    /// What certainly has ends on both sides of some faces.
+    /// Certifies the segments that certainly have ends on both sides of some faces.
     #[inline(always)]
     fn certify<L: Layout>(&mut self) {
         let Queues {
             crossing,
             crossed,
-            unsure,
+            uncertain,
             ..
         } = &mut *self.queues;
-        let filter = self.chunk.frustum.filter();
+        let filter = self.block.frustum.filter();
         for (items, count) in crossing.groups::<4>() {
-            let group = items.map(|i| &self.chunk.segments[i as usize]);
+            let group = items.map(|i| &self.block.segments[i as usize]);
             let [p, q] = ends(group);
             let (p, q) = (self.quad.points(p), self.quad.points(q));
             let found = Values::new::<L>(filter, p, q).certify::<L>(self.quad);
             let present = 0xf >> (4 - count);
             let certain = found.certain.to_bitmask() & present;
-            let open = !(found.certain | found.outside).to_bitmask() & present;
+            let undecided = !(found.certain | found.outside).to_bitmask() & present;
             let faces: [u64; 4] = found.faces.into();
             let [entered, left] = found.clipped;
             let packed = [0, 1, 2, 3].map(|j| {
@@ -318,30 +250,38 @@ impl<S: Simd, T: Real> Run<'_, S, T> {
                 Crossed::new(items[j], faces[j], clipped).0
             });
             crossed.append(packed, certain);
-            unsure.append(items, open);
+            uncertain.append(items, undecided);
         }
     }
 
+    /// Constructs the points of certain crossings.
     #[inline(always)]
     fn construct(&mut self) {
-        let filter = self.chunk.frustum.filter();
+        let filter = self.block.frustum.filter();
         for (items, _) in self.queues.crossed.groups::<4>() {
             let items = items.map(Crossed);
-            let group = items.map(|c| &self.chunk.segments[c.item()]);
+            let group = items.map(|c| &self.block.segments[c.item()]);
             let parts = Parts::new(self.quad, filter, items, group);
             // The last group's repeated items have the same clips.
             for (j, item) in items.into_iter().enumerate() {
-                self.chunk.clips[item.item()] = parts.clip(item, j);
+                self.block.clips[item.item()] = parts.clip(item, j);
             }
         }
     }
 
     /// One by one. The first that is queued of those that are not finite is the
     /// first of all: certificates never see them.
-    fn unsure(&mut self) -> Result<(), NonFiniteAt> {
-        let items = self.queues.unsure.items().iter().map(|&item| item as usize);
-        self.chunk.clip_singly(items, |frustum, segment| {
-            exact::vw::clip(frustum, segment, self.accuracy, self.counts)
-        })
+    fn uncertain(&mut self) -> Result<(), NonFiniteAt> {
+        let items = self.queues.uncertain.items().iter();
+        let items = items.map(|&item| item as usize);
+        // With `Fast`, triage and certificate have failed already: exact predicates are next.
+        let is_tried = self.accuracy == Accuracy::Fast;
+        self.block
+            .clip_singly(items, |frustum, segment| match is_tried {
+                true => exact::clip(frustum, segment, self.accuracy, self.counts, |s| {
+                    exact::vw::span(s)
+                }),
+                false => exact::vw::clip(frustum, segment, self.accuracy, self.counts),
+            })
     }
 }

@@ -1,12 +1,13 @@
 //! Four segments side by side.
 
+use crate::clip::rules::compare::{Compare, MinMax};
 use crate::exact::float::{Lanes, Width, split};
 use crate::frustum::Term;
 use crate::math::{Real, Segment, Vec3};
 use fearless_simd::prelude::*;
-use fearless_simd::{Level, f32x8, f64x4, mask64x4};
+use fearless_simd::{Level, f32x8, f32x16, f64x4, mask64x4};
 
-/// Four numbers, at a vector width.
+/// Makes registers of four `f64`, at a vector width.
 #[derive(Clone, Copy)]
 pub(super) struct Quad<S>(pub(super) S);
 
@@ -20,7 +21,7 @@ impl<S: Simd> Width<4> for Quad<S> {
 }
 
 impl<S: Simd> Quad<S> {
-    /// The same number four times.
+    /// The same value in each lane.
     #[inline(always)]
     pub(super) fn splat(self, value: f64) -> f64x4<S> {
         value.simd_into(self.0)
@@ -52,7 +53,7 @@ pub(super) fn ends<T: Real>(segments: [&Segment<T>; 4]) -> [[Vec3<f64>; 4]; 2] {
     ]
 }
 
-/// Whether products and sums are fused where that is asked for.
+/// Whether a product and a sum can be fused into one instruction.
 #[inline(always)]
 fn fuses<S: Simd>(simd: S) -> bool {
     match simd.level() {
@@ -78,8 +79,8 @@ impl<S: Simd> Lanes for f64x4<S> {
         SimdBase::abs(self)
     }
 
-    /// One fused operation, where there is one: what a product lost is a double, so
-    /// it is the same bits both ways, but where it underflows. There a value
+    /// One fused operation, where there is one: the rest of a product is an `f64`, so
+    /// both ways give the same bits, except where it underflows. There a value
     /// that matters is above 2^-500, and the difference, below 2^-1070, is lost
     /// in the sum.
     #[inline(always)]
@@ -89,5 +90,58 @@ impl<S: Simd> Lanes for f64x4<S> {
         }
         let (bh, bl) = split(b);
         al * bl - (((p - ah * bh) - al * bh) - ah * bl)
+    }
+}
+
+/// For every register that segments are clipped in.
+macro_rules! min_max {
+    ($($register:ident)*) => {$(
+        impl<S: Simd> MinMax for $register<S> {
+            #[inline(always)]
+            fn lesser(self, other: Self) -> Self {
+                SimdBase::min(self, other)
+            }
+
+            #[inline(always)]
+            fn greater(self, other: Self) -> Self {
+                SimdBase::max(self, other)
+            }
+
+            #[inline(always)]
+            fn magnitude(self) -> Self {
+                SimdBase::abs(self)
+            }
+        }
+    )*};
+}
+
+min_max!(f32x8 f32x16 f64x4);
+
+impl<S: Simd> Compare for f64x4<S> {
+    type Mask = mask64x4<S>;
+
+    #[inline(always)]
+    fn is_less(self, other: Self) -> mask64x4<S> {
+        self.simd_lt(other)
+    }
+
+    #[inline(always)]
+    fn is_equal(self, other: Self) -> mask64x4<S> {
+        self.simd_eq(other)
+    }
+
+    #[inline(always)]
+    fn any(mask: mask64x4<S>) -> bool {
+        mask.any_true()
+    }
+
+    #[inline(always)]
+    fn select(mask: mask64x4<S>, set: Self, clear: Self) -> Self {
+        mask.select(set, clear)
+    }
+
+    #[inline(always)]
+    fn tagged(self, tag: Self) -> Self {
+        f64x4::from_bits((self.to_bits() & !7) | tag.to_bits())
     }
 }

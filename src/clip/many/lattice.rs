@@ -1,11 +1,14 @@
 //! Four segments on the lattice, where floating point makes no error: the steps of
-//! `clip/exact/lattice.rs`, where the reasons are. Of what has no length nothing is
-//! said.
+//! `clip/exact/lattice.rs`, where the reasons are. The clips of segments of zero length mean
+//! nothing.
 
 use super::certified::Values;
 use super::lanes::Quad;
-use super::points::{Ends, Site};
-use crate::clip::{Class, Part, SegmentClip};
+use super::points::Ends;
+use crate::clip::exact::lattice::LatticeCrossing;
+use crate::clip::rules::site::{NearerEnd, Site, Step, end_is_smaller};
+use crate::clip::whole::class;
+use crate::clip::{Part, SegmentClip};
 use crate::frustum::FaceSet;
 use crate::frustum::eval::filter::Filter;
 use crate::math::{Real, Vec3};
@@ -23,7 +26,7 @@ pub(super) struct Clips {
     touch: u64,
     /// Segments that are outside.
     pub(super) outside: u64,
-    /// Segments of no length.
+    /// Segments of zero length.
     pub(super) still: u64,
 }
 
@@ -40,30 +43,25 @@ impl<S: Simd> Crossings<S> {
     #[inline(always)]
     fn new(quad: Quad<S>, values: &Values<S>) -> Self {
         let (zero, one) = (quad.splat(0.0), quad.splat(1.0));
-        let (before, beyond) = (quad.splat(-1.0), quad.splat(2.0));
         let mut found = Crossings {
-            enter: [before; 6],
-            leave: [beyond; 6],
+            enter: [zero; 6],
+            leave: [one; 6],
             t: [zero, one],
             still: zero.simd_eq(zero),
         };
         for i in 0..6 {
-            let (a, b) = (values.a[i], values.b[i]);
-            let t = a / (a - b);
-            // Faces that are not crossed stand where they change nothing; so do
-            // those with two equal values, whose t is no number.
-            let level = a.simd_eq(b);
-            found.still &= level;
-            found.enter[i] = (a.simd_gt(zero) | level).select(before, t);
-            found.leave[i] = (b.simd_gt(zero) | level).select(beyond, t);
-            found.t[0] = found.t[0].max(found.enter[i]);
-            found.t[1] = found.t[1].min(found.leave[i]);
+            let face = LatticeCrossing::new(values.a[i], values.b[i]);
+            found.still &= face.is_level;
+            found.enter[i] = face.enter;
+            found.leave[i] = face.leave;
+            found.t[0] = found.t[0].max(face.enter);
+            found.t[1] = found.t[1].min(face.leave);
         }
         found
     }
 }
 
-/// Sets of faces as numbers, and the values' magnitudes at the first face of each.
+/// Sets of faces as bits, and the magnitudes of the values of each set's first face.
 struct First<S: Simd> {
     set: u64x4<S>,
     a: f64x4<S>,
@@ -89,28 +87,21 @@ impl<S: Simd> First<S> {
         self.b = on.select(values.b[i].abs(), self.b);
     }
 
+    /// The parts' ends at t, with the faces crossed there.
     #[inline(always)]
-    fn site(&self, t: f64x4<S>, lesser: mask64x4<S>) -> Site<S> {
+    fn site(&self, t: f64x4<S>, end_is_smaller: mask64x4<S>) -> ([usize; 4], Site<f64x4<S>>) {
         let sets: [u64; 4] = self.set.into();
+        let from_end = NearerEnd::new(self.a, self.b).with_ties(end_is_smaller);
         // A touch at an end of the segment is twice that end.
         let end = t.simd_eq(1.0);
-        Site {
-            // Any number where there is none.
-            faces: sets.map(|set| (set.trailing_zeros() as usize).min(5)),
-            a: self.a,
-            b: self.b,
-            from_end: self.b.simd_lt(self.a) | (self.a.simd_eq(self.b) & lesser),
+        let site = Site {
+            step: Step::new(self.a, self.b, from_end),
             crossing: t.simd_gt(0.0) & !end,
             end,
-        }
+        };
+        // Any index where there is none.
+        (sets.map(|set| (set.trailing_zeros() as usize).min(5)), site)
     }
-}
-
-/// Where the end is lexicographically smaller than the start.
-#[inline(always)]
-fn lesser<S: Simd>(p: Vec3<f64x4<S>>, q: Vec3<f64x4<S>>) -> mask64x4<S> {
-    let z = p.y.simd_gt(q.y) | (p.y.simd_eq(q.y) & p.z.simd_gt(q.z));
-    p.x.simd_gt(q.x) | (p.x.simd_eq(q.x) & z)
 }
 
 impl Clips {
@@ -140,10 +131,12 @@ impl Clips {
             least_b = least_b.min(b);
             greatest = greatest.min(a.max(b));
         }
-        let lesser = lesser(p, q);
+        let smaller = end_is_smaller(p, q);
+        let (entry_faces, entries) = entry.site(t0, smaller);
+        let (exit_faces, exits) = exit.site(t1, smaller);
         Clips {
-            entries: entry.site(t0, lesser).points(quad, filter, p, q),
-            exits: exit.site(t1, lesser).points(quad, filter, p, q),
+            entries: Ends::new(quad, filter, entry_faces, &entries, p, q),
+            exits: Ends::new(quad, filter, exit_faces, &exits, p, q),
             sets: [entry.set.into(), exit.set.into(), coplanar.set.into()],
             clipped: [
                 least_a.simd_lt(0.0).to_bitmask(),
@@ -161,16 +154,11 @@ impl Clips {
         let bit = |bits: u64| bits >> j & 1 != 0;
         let [entry, exit, coplanar] = self.sets.map(|set| FaceSet::from_bits(set[j] as u8));
         let clipped = self.clipped.map(bit);
-        let touch = bit(self.touch);
-        // A table, not branches: here all classes are common.
-        let class = {
-            use Class::{Boundary, Cross, Inside, Touch};
-            let classes = [
-                Inside, Cross, Boundary, Boundary, Touch, Touch, Touch, Touch,
-            ];
-            let any = usize::from(clipped[0] | clipped[1]);
-            classes[usize::from(touch) << 2 | usize::from(!coplanar.is_empty()) << 1 | any]
-        };
+        let class = class(
+            bit(self.touch),
+            !coplanar.is_empty(),
+            clipped[0] | clipped[1],
+        );
         SegmentClip {
             class,
             part: Some(Part {

@@ -2,35 +2,39 @@
 //!
 //! # Idea
 //! ```text
-//! for each chunk of segments:
+//! for each block of 256 segments:
 //!     all are outside, until something else is known
-//!     triage    four at a time: the boundary values at both ends, and what their
-//!               signs prove; the numbers of the rest go to queues: inside,
-//!               lattice, crossing, unsure
-//!     lattice   four at a time, what is so coarse that nothing is rounded
-//!     crossing  four at a time from the queue: crossing parameters of all faces,
-//!               their latest entry and earliest exit; what is certain goes to a
-//!               queue with its two faces, the rest to the unsure
-//!     points    four at a time from the queue
-//!     inside    one by one: copies
-//!     unsure    one by one, as without slices
+//!     triage     four at a time: the boundary values at both ends, and what their
+//!                signs prove; the indices of the others go to queues: inside,
+//!                lattice, crossing, uncertain
+//!     lattice    four at a time, those so coarse that nothing is rounded
+//!     crossing   four at a time from the queue: crossing parameters of all faces,
+//!                their latest entry and earliest exit; certain ones go to a
+//!                queue with their two faces, the others to the uncertain ones
+//!     points     four at a time from the queue
+//!     inside     one by one: copies
+//!     uncertain  one by one, by the exact predicates of a single segment
 //! ```
-//! Queues are filled without branches, so that nothing depends on what cannot be
-//! predicted: which segments of a mixed scene are outside, inside or cut. That
-//! costs a textbook clipper most of its time.
+//! Queues are filled without branches, as it cannot be
+//! predicted which segments of a mixed scene are outside, inside or cut. Mispredicted branches
+//! cost a textbook clipper most of its time.
 //!
 //! V/W's symmetry gives the lanes their short values: left and right share a
 //! half-width, bottom and top another, near and far serve both trapezoids.
 //!
 //! # The same bits
-//! Each lane does what [`VwProjection`](crate::VwProjection) does with one segment, in
-//! the same order of operations, or hands it on to just that. The vector width is
-//! chosen once for a slice, at run time. The only fused operation is the rest of a
+//! Each lane applies the rules of `clip/rules/`, as [`VwProjection`](crate::VwProjection) does
+//! with one segment, in the same order of operations, or leaves the segment to it. The values of
+//! an uncertain segment are not passed along: few are, and a queue of values would cost all. The
+//! vector width is chosen once for a slice, at run time. The only fused operation is the rest of a
 //! product, which is exact either way.
+//!
+//! Closures that use registers are marked `#[inline(always)]`, or avoided: others are compiled
+//! without the vector width's instructions.
 //!
 //! # Source
 //! Four side values as one vector: V/W's own symmetry (see `clip/vw.rs`). Queues
-//! instead of branches: as in vectorised data bases' selection vectors (Boncz,
+//! instead of branches: as the selection vectors of vectorised databases (Boncz,
 //! Zukowski, Nes, "MonetDB/X100", 2005).
 
 mod certified;
@@ -46,16 +50,16 @@ use crate::frustum::{Form, Frustum, General, PlainFrustum, Symmetric};
 use crate::math::{NonFinite, NonFiniteAt, PerReal, Real, Segment};
 use crate::simd::at_width;
 use fearless_simd::{Level, Simd};
-use queue::{CHUNK, Queues};
+use queue::{BLOCK, Queues};
 
-/// Segments of a chunk, and where their clips go: as many, all outside.
-struct Chunk<'a, T> {
+/// Segments of a block, and the places of their clips: as many, all outside.
+struct Block<'a, T> {
     frustum: &'a Frustum,
     segments: &'a [Segment<T>],
     clips: &'a mut [SegmentClip<T>],
 }
 
-impl<T: Real> Chunk<'_, T> {
+impl<T: Real> Block<'_, T> {
     /// Clips some of the segments one by one, up to the first that is not finite.
     fn clip_singly(
         &mut self,
@@ -81,8 +85,8 @@ pub(crate) fn clip_exact<T: Real>(
 ) -> Result<(), NonFiniteAt> {
     let mut queues = Queues::new();
     let kernels = T::pick(&Both);
-    in_chunks(frustum, segments, clips, |chunk| {
-        (kernels.exact)(level, chunk, accuracy, &mut queues, counts)
+    in_blocks(frustum, segments, clips, |block| {
+        (kernels.exact)(level, block, accuracy, &mut queues, counts)
     })
 }
 
@@ -95,12 +99,12 @@ pub(crate) fn clip_plain<T: Real>(
 ) -> Result<(), NonFiniteAt> {
     let mut queues = Queues::new();
     let (kernels, plain) = (T::pick(&Both), frustum.plain());
-    in_chunks(frustum, segments, clips, |chunk| {
-        (kernels.plain)(level, chunk, plain, &mut queues)
+    in_blocks(frustum, segments, clips, |block| {
+        (kernels.plain)(level, block, plain, &mut queues)
     })
 }
 
-/// What clips a chunk of one scalar type. Functions that are not generic are
+/// The kernels that clip a block of one scalar type. Functions that are not generic are
 /// compiled once, here, and not in every crate that clips.
 struct Kernels<T: Real> {
     exact: ExactKernel<T>,
@@ -108,10 +112,10 @@ struct Kernels<T: Real> {
 }
 
 type ExactKernel<T> =
-    fn(Level, Chunk<'_, T>, Accuracy, &mut Queues, &mut StageCounts) -> Result<(), NonFiniteAt>;
+    fn(Level, Block<'_, T>, Accuracy, &mut Queues, &mut StageCounts) -> Result<(), NonFiniteAt>;
 
 type PlainKernel<T> =
-    fn(Level, Chunk<'_, T>, &PlainFrustum<T>, &mut Queues) -> Result<(), NonFiniteAt>;
+    fn(Level, Block<'_, T>, &PlainFrustum<T>, &mut Queues) -> Result<(), NonFiniteAt>;
 
 /// The kernels of both scalar types.
 struct Both;
@@ -121,15 +125,15 @@ impl PerReal for Both {
 
     fn single(&self) -> &Kernels<f32> {
         &Kernels {
-            exact: exact_singles,
-            plain: plain_singles,
+            exact: exact_f32,
+            plain: plain_f32,
         }
     }
 
     fn double(&self) -> &Kernels<f64> {
         &Kernels {
-            exact: exact_doubles,
-            plain: plain_doubles,
+            exact: exact_f64,
+            plain: plain_f64,
         }
     }
 }
@@ -138,47 +142,47 @@ macro_rules! kernels {
     ($($t:ident $exact:ident $plain:ident $registers:ident;)*) => {$(
         fn $exact(
             level: Level,
-            chunk: Chunk<'_, $t>,
+            block: Block<'_, $t>,
             accuracy: Accuracy,
             queues: &mut Queues,
             counts: &mut StageCounts,
         ) -> Result<(), NonFiniteAt> {
-            at_width!(level, simd => exact_chunk(simd, chunk, accuracy, queues, counts))
+            at_width!(level, simd => exact_block(simd, block, accuracy, queues, counts))
         }
 
         fn $plain(
             level: Level,
-            chunk: Chunk<'_, $t>,
+            block: Block<'_, $t>,
             frustum: &PlainFrustum<$t>,
             queues: &mut Queues,
         ) -> Result<(), NonFiniteAt> {
-            at_width!(level, simd => plain::$registers(simd, chunk, frustum, queues))
+            at_width!(level, simd => plain::$registers(simd, block, frustum, queues))
         }
     )*};
 }
 
 kernels! {
-    f32 exact_singles plain_singles singles;
-    f64 exact_doubles plain_doubles doubles;
+    f32 exact_f32 plain_f32 clip_f32;
+    f64 exact_f64 plain_f64 clip_f64;
 }
 
-fn in_chunks<T: Real>(
+fn in_blocks<T: Real>(
     frustum: &Frustum,
     segments: &[Segment<T>],
     clips: &mut Vec<SegmentClip<T>>,
-    mut clip: impl FnMut(Chunk<'_, T>) -> Result<(), NonFiniteAt>,
+    mut clip: impl FnMut(Block<'_, T>) -> Result<(), NonFiniteAt>,
 ) -> Result<(), NonFiniteAt> {
     clips.clear();
     clips.reserve(segments.len());
-    for segments in segments.chunks(CHUNK) {
+    for segments in segments.chunks(BLOCK) {
         let done = clips.len();
-        clips.extend(segments.iter().map(|_| super::plain::outside()));
-        let chunk = Chunk {
+        clips.extend(segments.iter().map(|_| super::whole::outside()));
+        let block = Block {
             frustum,
             segments,
             clips: &mut clips[done..],
         };
-        if let Err(mut error) = clip(chunk) {
+        if let Err(mut error) = clip(block) {
             clips.clear();
             error.index += done;
             return Err(error);
@@ -188,21 +192,21 @@ fn in_chunks<T: Real>(
 }
 
 #[inline(always)]
-fn exact_chunk<S: Simd, T: Real>(
+fn exact_block<S: Simd, T: Real>(
     simd: S,
-    chunk: Chunk<'_, T>,
+    block: Block<'_, T>,
     accuracy: Accuracy,
     queues: &mut Queues,
     counts: &mut StageCounts,
 ) -> Result<(), NonFiniteAt> {
     let mut run = certified::Run {
         quad: lanes::Quad(simd),
-        chunk,
+        block,
         accuracy,
         queues,
         counts,
     };
-    match run.chunk.frustum.filter().form {
+    match run.block.frustum.filter().form {
         Form::Symmetric => run.clip::<Symmetric<true>>(),
         Form::General | Form::Orthographic => run.clip::<General<true>>(),
         Form::InfiniteSymmetric | Form::Infinite => run.clip::<General<false>>(),

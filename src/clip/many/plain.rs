@@ -1,54 +1,57 @@
 //! Plain V/W, a register of segments at a time: the steps of `clip/vw.rs` in the
-//! same order. What is rare there goes to the unsure: a value of zero, and
-//! numbers so large that something may overflow.
+//! same order. Rare cases are clipped one by one: values of zero, and
+//! coordinates so large that something may overflow.
 
-use super::Chunk;
-use super::queue::{CHUNK, Queues};
-use crate::clip::{Class, Part, PartEnd, SegmentClip, plain, vw};
+use super::Block;
+use super::queue::{BLOCK, Queues};
+use crate::clip::rules::compare::MinMax;
+use crate::clip::rules::triage::Extremes;
+use crate::clip::whole::{class, inside, outside};
+use crate::clip::{Part, PartEnd, SegmentClip, vw};
 use crate::frustum::{FaceSet, Form, General, Layout, PlainFrustum, Symmetric, Term};
 use crate::math::{NonFiniteAt, Real, Segment, Vec3};
 use fearless_simd::prelude::*;
 use fearless_simd::{f32x8, f64x4};
 use std::marker::PhantomData;
 
-/// Clips a chunk, eight segments at a time.
+/// Clips a block, eight segments at a time.
 #[inline(always)]
-pub(super) fn singles<S: Simd>(
+pub(super) fn clip_f32<S: Simd>(
     simd: S,
-    chunk: Chunk<'_, f32>,
+    block: Block<'_, f32>,
     frustum: &PlainFrustum<f32>,
     queues: &mut Queues,
 ) -> Result<(), NonFiniteAt> {
-    clip::<S, f32, f32x8<S>, 8>(simd, chunk, frustum, queues)
+    clip::<S, f32, f32x8<S>, 8>(simd, block, frustum, queues)
 }
 
-/// Clips a chunk, four segments at a time.
+/// Clips a block, four segments at a time.
 #[inline(always)]
-pub(super) fn doubles<S: Simd>(
+pub(super) fn clip_f64<S: Simd>(
     simd: S,
-    chunk: Chunk<'_, f64>,
+    block: Block<'_, f64>,
     frustum: &PlainFrustum<f64>,
     queues: &mut Queues,
 ) -> Result<(), NonFiniteAt> {
-    clip::<S, f64, f64x4<S>, 4>(simd, chunk, frustum, queues)
+    clip::<S, f64, f64x4<S>, 4>(simd, block, frustum, queues)
 }
 
-/// Clips a chunk, N segments at a time.
+/// Clips a block, N segments at a time.
 #[inline(always)]
 fn clip<S, T, V, const N: usize>(
     simd: S,
-    chunk: Chunk<'_, T>,
+    block: Block<'_, T>,
     frustum: &PlainFrustum<T>,
     queues: &mut Queues,
 ) -> Result<(), NonFiniteAt>
 where
     S: Simd,
     T: Real,
-    V: SimdFloat<S, Element = T, Array = [T; N]> + Term,
+    V: SimdFloat<S, Element = T, Array = [T; N]> + Term + MinMax,
 {
     let mut run = Run {
         simd,
-        chunk,
+        block,
         frustum,
         queues,
         lanes: PhantomData::<V>,
@@ -60,10 +63,10 @@ where
     }
 }
 
-/// A chunk on its way.
+/// A block on its way.
 struct Run<'a, S, T, V> {
     simd: S,
-    chunk: Chunk<'a, T>,
+    block: Block<'a, T>,
     frustum: &'a PlainFrustum<T>,
     queues: &'a mut Queues,
     lanes: PhantomData<V>,
@@ -133,7 +136,7 @@ impl<S, T, V> Run<'_, S, T, V>
 where
     S: Simd,
     T: Real,
-    V: Term,
+    V: Term + MinMax,
 {
     #[inline(always)]
     fn clip<L: Layout, const N: usize>(&mut self) -> Result<(), NonFiniteAt>
@@ -141,7 +144,7 @@ where
         V: SimdFloat<S, Element = T, Array = [T; N]>,
     {
         self.queues.clear();
-        let (groups, rest) = self.chunk.segments.as_chunks::<N>();
+        let (groups, rest) = self.block.segments.as_chunks::<N>();
         for (k, group) in groups.iter().enumerate() {
             self.triage::<L, N>(group.each_ref(), N * k, N);
         }
@@ -152,12 +155,12 @@ where
         self.cross::<L, N>();
         for &item in self.queues.inside.items() {
             let index = item as usize;
-            self.chunk.clips[index] = plain::inside(&self.chunk.segments[index]);
+            self.block.clips[index] = inside(&self.block.segments[index]);
         }
-        self.unsure()
+        self.uncertain()
     }
 
-    /// The first `count` of a group count.
+    /// Only the first `count` segments of the group count.
     #[inline(always)]
     fn triage<L: Layout, const N: usize>(
         &mut self,
@@ -171,41 +174,37 @@ where
         let q: Vec3<V> = points(self.simd, group.map(|s| s.end));
         let a = values::<S, T, V, L>(self.simd, self.frustum, p);
         let b = values::<S, T, V, L>(self.simd, self.frustum, q);
-        let mut greatest = a[0].max(b[0]);
-        let mut least = a[0].min(b[0]);
-        let mut nearest = a[0].abs().min(b[0].abs());
+        let mut extremes = Extremes::new(a[0], b[0]);
         for (a, b) in a.into_iter().zip(b).skip(1) {
-            greatest = greatest.min(a.max(b));
-            least = least.min(a.min(b));
-            nearest = nearest.min(a.abs().min(b.abs()));
+            extremes.add(a, b);
         }
         let covered = (size::<S, V>(p) + size::<S, V>(q)).simd_lt(self.frustum.limit);
-        let outside = greatest.simd_lt(T::ZERO) & covered;
-        let inside = least.simd_gt(T::ZERO) & covered;
-        let certain = nearest.simd_gt(T::ZERO) & covered;
+        let outside = extremes.greatest.simd_lt(T::ZERO) & covered;
+        let inside = extremes.least.simd_gt(T::ZERO) & covered;
+        let certain = extremes.nearest.simd_gt(T::ZERO) & covered;
         let present = u64::MAX >> (64 - count);
         let crossing = (certain & !outside & !inside).to_bitmask() & present;
-        let unsure = !(certain | outside).to_bitmask() & present;
+        let uncertain = !(certain | outside).to_bitmask() & present;
         let items = std::array::from_fn::<u32, N, _>(|j| (base + j) as u32);
         self.queues
             .inside
             .append(items, inside.to_bitmask() & present);
         self.queues.crossing.append(items, crossing);
-        self.queues.unsure.append(items, unsure);
+        self.queues.uncertain.append(items, uncertain);
     }
 
-    /// What has ends on both sides of some faces, and on none.
+    /// Clips the segments that have ends on both sides of some faces, and on no face.
     #[inline(always)]
     fn cross<L: Layout, const N: usize>(&mut self)
     where
         V: SimdFloat<S, Element = T, Array = [T; N]>,
     {
-        let Chunk {
+        let Block {
             segments, clips, ..
-        } = &mut self.chunk;
-        let mut nowhere = plain::outside();
+        } = &mut self.block;
+        let mut discarded = outside();
         for (items, _) in self.queues.crossing.groups::<N>() {
-            let group = items.map(|i| &segments[i as usize % CHUNK]);
+            let group = items.map(|i| &segments[i as usize % BLOCK]);
             let p: Vec3<V> = points(self.simd, group.map(|s| s.start));
             let q: Vec3<V> = points(self.simd, group.map(|s| s.end));
             let found = crossings::<S, T, V, L, N>(self.simd, self.frustum, p, q);
@@ -214,7 +213,7 @@ where
                 // A pointer is chosen without a branch. The last group's
                 // repeated items have the same clips.
                 let place = if found.t[0][j] > found.t[1][j] {
-                    &mut nowhere
+                    &mut discarded
                 } else {
                     &mut clips[item as usize]
                 };
@@ -224,9 +223,14 @@ where
     }
 
     /// One by one.
-    fn unsure(&mut self) -> Result<(), NonFiniteAt> {
-        let items = self.queues.unsure.items().iter().map(|&item| item as usize);
-        self.chunk.clip_singly(items, vw::clip_plain)
+    fn uncertain(&mut self) -> Result<(), NonFiniteAt> {
+        let items = self
+            .queues
+            .uncertain
+            .items()
+            .iter()
+            .map(|&item| item as usize);
+        self.block.clip_singly(items, vw::clip_plain)
     }
 }
 
@@ -235,7 +239,7 @@ struct Crossings<T, const N: usize> {
     t: [[T; N]; 2],
     points: [[[T; N]; 3]; 2],
     clipped: [u64; 2],
-    /// Sets as numbers.
+    /// Sets of faces, as the values of their bits.
     faces: [[T; N]; 2],
 }
 
@@ -264,7 +268,7 @@ where
             continue;
         }
         let t = a[i] / (a[i] - b[i]);
-        // A face that is not crossed stands where it changes nothing.
+        // The parameters of a face that is not crossed change nothing.
         enter[i] = a[i].simd_gt(zero).select(before, t);
         leave[i] = b[i].simd_gt(zero).select(beyond, t);
         t0 = t0.max(enter[i]);
@@ -310,7 +314,7 @@ impl<T: Real, const N: usize> Crossings<T, N> {
         let both = sets[0].union(sets[1]);
         let [entry, exit] = if touch { [both, both] } else { sets };
         SegmentClip {
-            class: if touch { Class::Touch } else { Class::Cross },
+            class: class(touch, false, true),
             part: Some(Part {
                 entry: self.end(0, j, entry),
                 exit: self.end(1, j, exit),
@@ -329,12 +333,7 @@ impl<T: Real, const N: usize> Crossings<T, N> {
     fn end(&self, end: usize, j: usize, faces: FaceSet) -> PartEnd<T> {
         let clipped = self.clipped[end] >> j & 1 != 0;
         let [x, y, z] = &self.points[end];
-        PartEnd {
-            t: self.t[end][j],
-            point: Vec3::new(x[j], y[j], z[j]),
-            clipped,
-            faces,
-            inward: !clipped,
-        }
+        let point = Vec3::new(x[j], y[j], z[j]);
+        PartEnd::fast(self.t[end][j], point, clipped, faces)
     }
 }

@@ -1,44 +1,63 @@
-//! Numbers of segments, queued without branches.
+//! Indices of segments in a block, queued without branches.
 
-/// How many segments are clipped together: their clips stay in the first cache.
-pub(super) const CHUNK: usize = 256;
+use crate::simd::compaction::PLACES;
 
-/// Room beyond what a chunk can fill: items that are offered and not taken are
-/// written to the next free place all the same.
-const ROOM: usize = 2 * CHUNK;
+/// Segments in a block, which are clipped together: their answers stay in the first cache.
+pub(super) const BLOCK: usize = 256;
 
-/// Numbers of segments in a chunk, each with some bits beside it.
-pub(super) struct Queue {
-    items: [u32; ROOM],
+/// Capacity of a queue: more than a block fills, as items that are offered and not taken are
+/// written to the next free place all the same. A power of two, by which a place is brought into
+/// an array's range in one operation.
+pub(super) const CAPACITY: usize = 2 * BLOCK;
+
+/// At most as many items as a block has segments.
+pub(super) struct Queue<I> {
+    items: [I; CAPACITY],
     len: usize,
 }
 
-impl Queue {
-    const fn new() -> Self {
+impl<I: Copy + Default> Queue<I> {
+    pub(super) fn new() -> Self {
         Self {
-            items: [0; ROOM],
+            items: [I::default(); CAPACITY],
             len: 0,
         }
     }
 
-    /// Appends those items whose bit is set.
     #[inline(always)]
-    pub(super) fn append<const N: usize>(&mut self, items: [u32; N], bits: u64) {
-        for (j, item) in items.into_iter().enumerate() {
-            self.items[self.len % ROOM] = item;
-            self.len += (bits >> j & 1) as usize;
-        }
+    pub(super) fn clear(&mut self) {
+        self.len = 0;
     }
 
     #[inline(always)]
-    pub(super) fn items(&self) -> &[u32] {
-        &self.items[..self.len.min(CHUNK)]
+    pub(super) fn len(&self) -> usize {
+        self.len.min(BLOCK)
+    }
+
+    #[inline(always)]
+    pub(super) fn items(&self) -> &[I] {
+        &self.items[..self.len()]
+    }
+
+    /// Appends an item if the condition holds.
+    #[inline(always)]
+    pub(super) fn push_if(&mut self, item: I, condition: bool) {
+        self.items[self.len % CAPACITY] = item;
+        self.len += usize::from(condition);
+    }
+
+    /// Appends those items whose bit is set.
+    #[inline(always)]
+    pub(super) fn append<const N: usize>(&mut self, items: [I; N], bits: u64) {
+        for (j, item) in items.into_iter().enumerate() {
+            self.push_if(item, bits >> j & 1 != 0);
+        }
     }
 
     /// The items in groups, the last one filled up with its last item, and how many
     /// of each group count.
     #[inline(always)]
-    pub(super) fn groups<const N: usize>(&self) -> impl Iterator<Item = ([u32; N], usize)> + '_ {
+    pub(super) fn groups<const N: usize>(&self) -> impl Iterator<Item = ([I; N], usize)> + '_ {
         self.items().chunks(N).map(
             #[inline(always)]
             |group| match group.try_into() {
@@ -53,28 +72,53 @@ impl Queue {
     }
 }
 
-/// What a chunk's segments wait for.
+impl Queue<u16> {
+    /// Appends `base` plus the index of each bit that is set, of N: a byte at a time, which costs
+    /// less than [`Queue::append`] for registers of eight lanes or more.
+    #[inline(always)]
+    pub(super) fn append_bits<const N: usize>(&mut self, base: usize, bits: u64) {
+        for k in (0..N).step_by(8) {
+            let byte = bits >> k & 0xff;
+            let places = &PLACES[byte as usize];
+            let rest = self.items.get_mut(self.len..);
+            if let Some(slots) = rest.and_then(|rest| rest.first_chunk_mut::<8>()) {
+                for (slot, place) in slots.iter_mut().zip(places) {
+                    *slot = (base + k) as u16 + u16::from(*place);
+                }
+            }
+            self.len += byte.count_ones() as usize;
+        }
+    }
+
+    /// The item at a place, as an index into a block.
+    #[inline(always)]
+    pub(super) fn at(&self, place: usize) -> usize {
+        usize::from(self.items[place % CAPACITY]) % BLOCK
+    }
+}
+
+/// A slice's segments of a block by what they wait for.
 pub(super) struct Queues {
     /// To be copied.
-    pub(super) inside: Queue,
-    /// Of certain signs, to be cut.
-    pub(super) crossing: Queue,
-    /// With certain crossings: the number, then [`Crossed`].
-    pub(super) crossed: Queue,
+    pub(super) inside: Queue<u32>,
+    /// With certain signs, to be cut.
+    pub(super) crossing: Queue<u32>,
+    /// With certain crossings: [`Crossed`].
+    pub(super) crossed: Queue<u32>,
     /// On the lattice, not settled by certain signs.
-    pub(super) lattice: Queue,
+    pub(super) lattice: Queue<u32>,
     /// To be clipped alone.
-    pub(super) unsure: Queue,
+    pub(super) uncertain: Queue<u32>,
 }
 
 impl Queues {
-    pub(super) const fn new() -> Self {
+    pub(super) fn new() -> Self {
         Self {
             inside: Queue::new(),
             crossing: Queue::new(),
             crossed: Queue::new(),
             lattice: Queue::new(),
-            unsure: Queue::new(),
+            uncertain: Queue::new(),
         }
     }
 
@@ -84,15 +128,15 @@ impl Queues {
             &mut self.crossing,
             &mut self.crossed,
             &mut self.lattice,
-            &mut self.unsure,
+            &mut self.uncertain,
         ] {
-            queue.len = 0;
+            queue.clear();
         }
     }
 }
 
-/// A segment's number in a chunk and the faces at its entry and exit, packed:
-/// which ones by number, and whether they are crossed.
+/// A segment's index in a block, the indices of the faces at its entry and exit, and whether they
+/// are crossed, packed.
 #[derive(Clone, Copy)]
 pub(super) struct Crossed(pub(super) u32);
 

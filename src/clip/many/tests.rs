@@ -1,4 +1,4 @@
-//! Slices against single segments, to the bit, at every vector width.
+//! Slices compared with single segments, to the bit, at every vector width.
 
 use super::*;
 use crate::clip::{SegmentClipper, VwProjection};
@@ -14,7 +14,7 @@ fn families() -> Vec<Family> {
     Family::ALL.to_vec()
 }
 
-/// All of a family's first cases, a scene at a time, in pieces of many lengths.
+/// Compares a family's first cases, a scene at a time, in slices of many lengths.
 fn compare<T: Real>(
     family: Family,
     clip: impl Fn(&Frustum, &[Segment<T>], &mut Vec<SegmentClip<T>>, &mut StageCounts),
@@ -28,7 +28,7 @@ fn compare<T: Real>(
         let frustum = scene.frustum();
         let cases = block * BLOCK..block * BLOCK + cases_each;
         let segments: Vec<Segment<T>> = cases.map(|i| family.segment(&scene, 7, i)).collect();
-        // A chunk and a bit, so that every place in a group is taken by all.
+        // More than a block, so that each segment takes every place in a group.
         let many: Vec<_> = (0..5).flat_map(|k| &segments[k..]).copied().collect();
         let length = many.len() - block as usize % 5;
         let (mut counts, mut expected_counts) = Default::default();

@@ -1,4 +1,4 @@
-//! The two predicates that decide everything, as the algorithms see them.
+//! The interface of the two predicates that decide everything.
 
 use crate::frustum::Face;
 use crate::math::End;
@@ -6,17 +6,17 @@ use std::cmp::Ordering;
 
 /// Signs of boundary values at a segment's ends, and orders of crossings.
 pub(crate) trait Predicates {
-    /// The faces there are, in the order of [`Face::ALL`].
+    /// The frustum's faces, in the order of [`Face::ALL`].
     fn faces(&self) -> &'static [Face];
 
     /// The sign of a face's boundary function at an end; `Greater` is inside.
     fn side(&mut self, face: Face, end: End) -> Ordering;
 
     /// The order of the parameters at which the segment's line crosses two
-    /// faces; for faces of which one end is strictly outside, the other not.
+    /// faces. Precondition: exactly one end is strictly outside each of them.
     fn order(&mut self, a: Face, b: Face) -> Ordering;
 
-    /// What the face does to the segment.
+    /// The face's effect on the segment.
     #[inline]
     fn role(&mut self, face: Face) -> Role {
         let start = self.side(face, End::Start);
@@ -30,7 +30,7 @@ pub(crate) trait Predicates {
     }
 }
 
-/// What a face does to a segment.
+/// A face's effect on a segment.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Role {
     /// Both ends are strictly outside it, so all of the segment is.
@@ -43,8 +43,8 @@ pub(crate) enum Role {
     Inside,
 }
 
-/// What an algorithm finds in a segment that meets the frustum: where it is
-/// clipped. Ties between faces may be settled either way.
+/// An algorithm's result for a segment that meets the frustum: where it is
+/// clipped. Ties between faces may be decided either way.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Span {
     /// A face at which the segment enters; `None` if its start is in the
@@ -73,7 +73,7 @@ impl Span {
         }
     }
 
-    /// Nothing, if the span ends before it starts.
+    /// `None` if the span ends before it starts.
     #[inline]
     pub(crate) fn unless_empty(self, p: &mut impl Predicates) -> Option<Self> {
         match (self.enter, self.leave) {

@@ -1,5 +1,5 @@
-//! Every algorithm's control flow, on integer predicates, against the segment
-//! looked at in every point that could matter.
+//! Every algorithm's control flow, on integer predicates, compared with an examination of every
+//! point that could matter.
 
 use super::{Predicates, Span};
 use crate::clip::{cohen_sutherland, cyrus_beck, exact, liang_barsky, six_planes};
@@ -37,7 +37,10 @@ impl Predicates for Mock {
     fn order(&mut self, a: Face, b: Face) -> Ordering {
         for face in [a, b] {
             let [p, q] = [0, 1].map(|end| self.values[end][face as usize]);
-            assert!((p < 0) != (q < 0), "{face} is asked about, but not crossed");
+            assert!(
+                (p < 0) != (q < 0),
+                "the order of {face} is requested, but it is not crossed"
+            );
         }
         order(self.crossing(a), self.crossing(b))
     }
@@ -45,7 +48,7 @@ impl Predicates for Mock {
 
 /// Entry and exit parameters: the first and the last that is inside every face,
 /// of both ends and every crossing.
-fn looked_at(mock: &Mock) -> Option<[(i128, i128); 2]> {
+fn examined(mock: &Mock) -> Option<[(i128, i128); 2]> {
     let mut candidates = vec![(0, 1), (1, 1)];
     for &face in mock.faces {
         let (n, d) = mock.crossing(face);
@@ -110,9 +113,9 @@ impl Trapezoids {
     }
 }
 
-/// Runs every algorithm on one segment; returns how the segment lies.
+/// Runs every algorithm on one segment, and returns its position.
 fn check(t: &Trapezoids, p: [i128; 3], q: [i128; 3]) -> Outcome {
-    let expected = looked_at(&t.mock(p, q));
+    let expected = examined(&t.mock(p, q));
     for (name, span) in ALGORITHMS {
         let mut mock = t.mock(p, q);
         let found = span(&mut mock);
@@ -185,7 +188,7 @@ const SHAPES: [Trapezoids; 5] = [
 ];
 
 #[test]
-fn all_control_flows_agree_with_looking_at_every_point() {
+fn all_control_flows_agree_with_an_examination_of_every_point() {
     let mut state = 1_u64;
     let mut next = || {
         let mut point = [0; 3];
@@ -206,7 +209,7 @@ fn all_control_flows_agree_with_looking_at_every_point() {
                 seen[check(shape, p, q) as usize] += 1;
             }
         }
-        // The lattice has many of each, or the test would say little.
+        // The lattice has many of each, or the test would prove little.
         assert!(seen.iter().all(|&n| n > 500), "{seen:?}");
     }
 }

@@ -34,7 +34,7 @@ pub use masks::ContainmentMasks;
 pub use relative::{RelativeBoxes, RelativeError};
 pub use spheres::{SphereArrays, Spheres};
 
-use crate::clip::many::intervals::{self as segments, SegmentIntervals, Segments};
+use crate::clip::many::intervals::{self, SegmentIntervals, Segments};
 use crate::cull::{Containment, Culler, VolumeCounts, VolumeErrorAt};
 use crate::math::{NonFiniteAt, PerReal, Real};
 use block_driver::{BlockDriver, Sink};
@@ -241,56 +241,8 @@ impl Culler {
         segments: impl Into<Segments<'a, T>>,
         intervals: &mut SegmentIntervals<T>,
     ) -> Result<(), NonFiniteAt> {
-        self.intervals_at(Level::new(), &segments.into(), intervals)
-    }
-
-    pub(crate) fn intervals_at<T: Real>(
-        &self,
-        level: Level,
-        segments: &Segments<'_, T>,
-        intervals: &mut SegmentIntervals<T>,
-    ) -> Result<(), NonFiniteAt> {
-        let done = self.intervals_into(level, segments, intervals.prepare(segments.len()));
-        if done.is_err() {
-            intervals.clear();
-        }
-        done
-    }
-
-    fn intervals_into<T: Real>(
-        &self,
-        level: Level,
-        segments: &Segments<'_, T>,
-        out: segments::Out<'_, T>,
-    ) -> Result<(), NonFiniteAt> {
-        let (kernel, rows) = (T::pick(&IntervalKernels), T::pick(self.rows()));
-        let asked = segments::Asked {
-            frustum: self.frustum(),
-            rows,
-            doubles: self.rows().double(),
-        };
-        kernel(level, asked, segments, out)
-    }
-}
-
-type IntervalKernel<T> = fn(
-    Level,
-    segments::Asked<'_, T>,
-    &Segments<'_, T>,
-    segments::Out<'_, T>,
-) -> Result<(), NonFiniteAt>;
-
-struct IntervalKernels;
-
-impl PerReal for IntervalKernels {
-    type Of<T: Real> = IntervalKernel<T>;
-
-    fn single(&self) -> &IntervalKernel<f32> {
-        &(segments::singles as _)
-    }
-
-    fn double(&self) -> &IntervalKernel<f64> {
-        &(segments::doubles as _)
+        let (frustum, planes) = (self.frustum(), self.rows());
+        intervals::clip(Level::new(), frustum, planes, &segments.into(), intervals)
     }
 }
 

@@ -10,8 +10,8 @@
 
 use super::block_driver::WORD;
 use super::masks::{Classes, MaskWords, Numbers};
-use super::segments::{Out, Unsure};
 use super::{Boxes, ContainmentMasks, Query, RelativeBoxes, SegmentIntervals, Segments, Spheres};
+use crate::clip::many::intervals::{self as engine, Out, Uncertain};
 use crate::cull::{Containment, Culler, VolumeCounts, VolumeErrorAt};
 use crate::math::{NonFiniteAt, Real};
 use fearless_simd::Level;
@@ -138,25 +138,27 @@ impl Culler {
         let pieces = pieces.zip(out.t0.chunks_mut(PIECE));
         let pieces = pieces.zip(out.t1.chunks_mut(PIECE));
         let done = by_all(pieces, |piece, ((classes, t0), t1)| {
-            let mut unsure = Unsure::default();
+            let mut uncertain = Uncertain::default();
             let out = Out {
                 classes,
                 t0,
                 t1,
-                unsure: &mut unsure,
+                uncertain: &mut uncertain,
             };
             let range = range(piece, len);
             let start = range.start;
-            let done = self.intervals_into(Level::new(), &segments.part(range), out);
+            let (frustum, planes) = (self.frustum(), self.rows());
+            let part = segments.part(range);
+            let done = engine::clip_into(Level::new(), frustum, planes, &part, out);
             done.map_err(|e: NonFiniteAt| NonFiniteAt {
                 index: start + e.index,
                 ..e
             })?;
-            Ok(unsure.count)
+            Ok(uncertain.count)
         });
         match done {
-            Ok(unsure) => {
-                out.unsure.count = unsure.into_iter().sum();
+            Ok(uncertain) => {
+                out.uncertain.count = uncertain.into_iter().sum();
                 Ok(())
             }
             Err(error) => {
@@ -341,7 +343,7 @@ mod tests {
         culler.clip_intervals(&segments, &mut one).unwrap();
         culler.par_clip_intervals(&segments, &mut many).unwrap();
         assert!(one == many && one.visible().count() > 1_000);
-        assert_eq!(one.unsure(), many.unsure());
+        assert_eq!(one.uncertain(), many.uncertain());
         let column = |k: usize| -> Vec<f32> { points.iter().map(|p| p[k]).collect() };
         let [x, y, z] = [column(0), column(1), column(2)];
         let arrays = SegmentArrays {

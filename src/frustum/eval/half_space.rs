@@ -28,6 +28,8 @@ use crate::exact::double_double::Dd;
 use crate::exact::dyadic::Dyadic;
 use crate::exact::expansion::{Expansion, in_safe_range};
 use crate::exact::float::Lanes;
+use crate::frustum::eval::boundary::boundary;
+use crate::frustum::{Face, Frustum};
 use crate::math::{Real, Vec3};
 use std::cmp::Ordering;
 
@@ -67,6 +69,32 @@ pub(crate) struct HalfSpace {
 }
 
 impl HalfSpace {
+    /// The half spaces of a frustum's faces, in the order of [`Frustum::faces`].
+    pub(crate) fn of_faces(frustum: &Frustum) -> Box<[HalfSpace]> {
+        let faces = frustum.faces().iter();
+        // The axes of a frustum are independent: no normal is zero.
+        faces
+            .filter_map(|&face| Self::of_face(frustum, face))
+            .collect()
+    }
+
+    /// A face's half space from values of its boundary function, which is linear.
+    fn of_face(frustum: &Frustum, face: Face) -> Option<Self> {
+        let at = |p: [f64; 3]| {
+            let Ok(value) = boundary::<Dyadic>(frustum, face, Vec3::from(p));
+            value
+        };
+        let origin = at([0.0; 3]);
+        let along = |p| &at(p) - &origin;
+        let normal = [
+            along([1.0, 0.0, 0.0]),
+            along([0.0, 1.0, 0.0]),
+            along([0.0, 0.0, 1.0]),
+        ];
+        let [x, y, z] = normal;
+        Self::new([x, y, z, origin])
+    }
+
     /// From a normal and an offset; `None` for the zero vector.
     pub(crate) fn new(numbers: [Dyadic; 4]) -> Option<Self> {
         let top = numbers[..3].iter().filter_map(Dyadic::top).max()?;

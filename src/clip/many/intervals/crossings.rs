@@ -1,83 +1,51 @@
 //! The latest entry and the earliest exit of a register of segments, and whether they are certain.
 //!
 //! # Which side a parameter is on
-//! A face whose value falls from a start to an end is left at `t = a / (a - b)`, one whose value
-//! rises is entered there, if it is met at all: t is less than 0 where the segment began beyond an
-//! entry, more than 1 where it ends before an exit. So the signs of differences tell entries from
-//! exits, and what is not met needs no mask: it is never the last nor the first of those that are.
-//! That holds for rounded parameters: a value beyond its threshold is more than 8 u of its face's
-//! difference, and a side's or near's parameter is off by less than 4 u of itself; a face's number
-//! takes the place of its last three bits, which are zeros in 0, 1 and 2.
+//! A face whose value falls from start to end is left at `t = a / (a - b)`, one whose value
+//! rises is entered there, if it is crossed at all: t is less than 0 if the segment starts beyond an
+//! entry, more than 1 if it ends before an exit. So the signs of differences distinguish entries
+//! from exits, and a face that is not crossed needs no mask: it is never the latest entry nor the
+//! earliest exit of those that are. That holds for rounded parameters: a value beyond its threshold
+//! is more than 8 u of its face's difference, and a side's or near's parameter is off by less than
+//! 4 u of itself; the tag takes the place of its last three bits, which are zeros in 0, 1 and 2.
 //!
 //! # One difference for near and far
 //! Their values rise and fall together: one of them is entered, the other left. The difference of
 //! near's values stands for both, so that far's parameter is off by 7.2 u S + 4.2 u |d| over it
-//! (`proofs/half_space.gappa`), of the 8 of each that a threshold has (`planes.rs`). So it is on the
-//! right side, too: where far is met both its values are beyond their threshold. And
+//! (`proofs/half_space.gappa`), of the 8 of each that a threshold has (`frustum.rs`). So it is on the
+//! right side, too: where far is crossed both its values are beyond their threshold. And
 //! the difference is off by less than a quarter of that, so that it is not less than the
 //! larger of far's values, to which the smaller one adds.
 
-use super::planes::Planes;
+use super::frustum_lanes::FrustumLanes;
+use crate::clip::rules::certificate::{Earliest, Latest};
+use crate::clip::rules::compare::MinMax;
 use crate::math::Real;
 use fearless_simd::prelude::*;
 
 /// A mask for `V`'s lanes.
 type Mask<S, V> = <V as SimdBase<S>>::Mask;
 
-/// Where each of a register of segments is cut.
+/// The crossings of a register of segments.
 pub(super) struct Crossings<S: Simd, V: SimdFloat<S>> {
-    /// The face, by number, at which a segment enters last, and the one at which it leaves first;
-    /// of one that does not, some face.
+    /// The index of the face at which a segment enters last, and of the one at which it leaves
+    /// first; any index if it does not.
     pub(super) faces: [V::Bits; 2],
-    /// Whether it does.
+    /// Whether it enters, and whether it leaves.
     pub(super) cut: [Mask<S, V>; 2],
-    /// The entry certainly comes after the exit.
+    /// Whether the entry certainly comes after the exit.
     pub(super) outside: Mask<S, V>,
-    /// The entry certainly comes before the exit, and each certainly is at that face alone.
+    /// Whether the entry certainly comes before the exit, and each certainly is at that face alone.
     pub(super) certain: Mask<S, V>,
     /// The size of its coordinates, as [`Size::sum`].
     pub(super) size: V,
 }
 
-/// The latest of some parameters, and what comes before it.
-struct Latest<V> {
-    first: V,
-    second: V,
-}
-
-impl<V: Copy> Latest<V> {
-    #[inline(always)]
-    fn add<S: Simd>(&mut self, t: V)
-    where
-        V: SimdFloat<S>,
-    {
-        self.second = self.second.max(self.first.min(t));
-        self.first = self.first.max(t);
-    }
-}
-
-/// The earliest of some parameters, and what comes after it.
-struct Earliest<V> {
-    first: V,
-    second: V,
-}
-
-impl<V: Copy> Earliest<V> {
-    #[inline(always)]
-    fn add<S: Simd>(&mut self, t: V)
-    where
-        V: SimdFloat<S>,
-    {
-        self.second = self.second.min(self.first.max(t));
-        self.first = self.first.min(t);
-    }
-}
-
 /// The smallest magnitudes that matter.
 struct Smallest<V> {
-    /// Of all values.
+    /// The smallest of all values.
     value: V,
-    /// Of each face's larger value: no crossing's difference is smaller.
+    /// The smallest of the faces' larger values: no crossing's difference is smaller.
     difference: V,
 }
 
@@ -105,21 +73,19 @@ impl<V: Copy> Smallest<V> {
     }
 }
 
-impl<S: Simd, V: SimdFloat<S, Element: Real>> Crossings<S, V> {
+impl<S: Simd, V: SimdFloat<S, Element: Real> + MinMax> Crossings<S, V> {
     #[inline(always)]
-    pub(super) fn new(planes: &Planes<S, V>, ends: &[[V; 3]; 2]) -> Self {
-        let (zero, one) = (planes.zero, planes.one);
+    pub(super) fn new(frustum: &FrustumLanes<S, V>, ends: &[[V; 3]; 2]) -> Self {
+        let (zero, one) = (frustum.zero, frustum.one);
         let [p, q] = ends;
-        let [start, end] = [planes.near_far(p), planes.near_far(q)];
+        let [start, end] = [frustum.near_far(p), frustum.near_far(q)];
         let difference = start[0] - end[0];
         let scale = one / difference;
-        // What comes before all, and after all; an infinity has no room for another number than 0.
+        // What comes before all, and after all. An infinity is brought down to them: tagged, it
+        // would be NaN.
         let (before, after) = (-one, one + one);
         let far = (start[1] * -scale).min(after).max(before);
-        let (near, far) = (
-            planes.numbered(start[0] * scale, 0),
-            planes.numbered(far, 1),
-        );
+        let (near, far) = (frustum.tagged(start[0] * scale, 0), frustum.tagged(far, 1));
         let rises = difference.simd_lt(zero);
         let mut entry = Latest {
             first: rises.select(near, far),
@@ -132,26 +98,26 @@ impl<S: Simd, V: SimdFloat<S, Element: Real>> Crossings<S, V> {
         let mut smallest = Smallest::of::<S>(start[0], end[0]);
         smallest.add::<S>(start[1], end[1]);
         for side in 0..4 {
-            let (a, b) = (planes.side(side, p), planes.side(side, q));
+            let (a, b) = (frustum.side(side, p), frustum.side(side, q));
             let difference = a - b;
-            let t = planes.numbered((a * (one / difference)).min(after), 2 + side);
+            let t = frustum.tagged((a * (one / difference)).min(after), 2 + side);
             let rises = difference.simd_lt(zero);
-            entry.add::<S>(rises.select(t, before));
-            exit.add::<S>(rises.select(after, t));
+            entry.add(rises.select(t, before));
+            exit.add(rises.select(after, t));
             smallest.add::<S>(a, b);
         }
-        let size = planes.size(ends);
-        // What two parameters can be off, together.
-        let error = planes.error(&size, one / smallest.difference);
+        let size = frustum.size(ends);
+        // Two parameters together may be off by twice as much.
+        let error = frustum.error(&size, one / smallest.difference);
         let error = error + error;
         let overlap = entry.first - exit.first;
-        let signs = smallest.value.simd_gt(size.threshold) & planes.covers(&size);
+        let signs = smallest.value.simd_gt(size.threshold) & frustum.covers(&size);
         let enters = entry.first.simd_gt(zero);
         let leaves = exit.first.simd_lt(one);
         let entry_alone = entry.second.simd_lt(entry.first - error);
         let exit_alone = exit.second.simd_gt(exit.first + error);
         Crossings {
-            faces: [planes.number(entry.first), planes.number(exit.first)],
+            faces: [frustum.face(entry.first), frustum.face(exit.first)],
             cut: [enters, leaves],
             outside: signs & overlap.simd_gt(error),
             certain: signs

@@ -2,28 +2,49 @@
 
 use super::*;
 use crate::clip::Class;
-use crate::cull::Culler;
-use crate::frustum::Direction;
-use crate::frustum::Frustum;
-use crate::math::{NonFiniteAt, PerReal, Rect};
+use crate::frustum::eval::half_space::HalfSpace;
+use crate::frustum::{Direction, EndRect, Shape};
+use crate::math::{Pose, Rect, Segment};
 use crate::samples::{BLOCK as CASES, Family};
 use crate::simd::levels;
-use crate::{EndRect, Pose, Shape};
-use fearless_simd::Level;
 
-fn arrays<T: Real>(segments: &[Segment<T>]) -> [Vec<T>; 6] {
-    let all = |of: fn(&Segment<T>) -> T| segments.iter().map(of).collect();
+/// A frustum and its half spaces.
+struct Prepared {
+    frustum: Frustum,
+    planes: FacePlanesPair,
+}
+
+impl Prepared {
+    fn new(frustum: &Frustum) -> Self {
+        Self {
+            frustum: frustum.clone(),
+            planes: FacePlanesPair::new(&HalfSpace::of_faces(frustum)),
+        }
+    }
+
+    fn clip<T: Real>(
+        &self,
+        level: Level,
+        segments: &Segments<'_, T>,
+        intervals: &mut SegmentIntervals<T>,
+    ) -> Result<(), NonFiniteAt> {
+        clip(level, &self.frustum, &self.planes, segments, intervals)
+    }
+}
+
+fn columns<T: Real>(segments: &[Segment<T>]) -> [Vec<T>; 6] {
+    let column = |of: fn(&Segment<T>) -> T| segments.iter().map(of).collect();
     [
-        all(|s| s.start.x),
-        all(|s| s.start.y),
-        all(|s| s.start.z),
-        all(|s| s.end.x),
-        all(|s| s.end.y),
-        all(|s| s.end.z),
+        column(|s| s.start.x),
+        column(|s| s.start.y),
+        column(|s| s.start.z),
+        column(|s| s.end.x),
+        column(|s| s.end.y),
+        column(|s| s.end.z),
     ]
 }
 
-fn lot<T>([a, b, c, d, e, f]: &[Vec<T>; 6]) -> SegmentArrays<'_, T> {
+fn arrays<T>([a, b, c, d, e, f]: &[Vec<T>; 6]) -> SegmentArrays<'_, T> {
     SegmentArrays {
         start: [a, b, c],
         end: [d, e, f],
@@ -37,22 +58,22 @@ fn expected<T: Real>(frustum: &Frustum, segment: &Segment<T>) -> (Class, T, T) {
     (clip.class, t0, t1)
 }
 
-/// Both ways of storing segments give what each gives alone.
-fn compare<T: Real>(level: Level, culler: &Culler, segments: &[Segment<T>]) -> usize {
+/// Both ways of storing segments give what each gives alone. Returns how many were uncertain.
+fn compare<T: Real>(level: Level, prepared: &Prepared, segments: &[Segment<T>]) -> usize {
     let mut intervals = SegmentIntervals::default();
-    let arrays = arrays(segments);
-    for lot in [Segments::from(lot(&arrays)), Segments::from(segments)] {
-        assert_eq!(lot.len(), segments.len());
-        let done = culler.intervals_at(level, &lot, &mut intervals);
+    let columns = columns(segments);
+    for batch in [Segments::from(arrays(&columns)), Segments::from(segments)] {
+        assert_eq!(batch.len(), segments.len());
+        let done = prepared.clip(level, &batch, &mut intervals);
         assert_eq!(done, Ok(()));
         assert_eq!(intervals.len(), segments.len());
         for (segment, found) in segments.iter().zip(intervals.iter()) {
-            let expected = expected(culler.frustum(), segment);
-            // Texts tell zeros' signs apart.
+            let expected = expected(&prepared.frustum, segment);
+            // Texts distinguish the signs of zeros.
             assert_eq!(format!("{found:?}"), format!("{expected:?}"), "{segment:?}");
         }
     }
-    intervals.unsure()
+    intervals.uncertain()
 }
 
 fn compare_families<T: Real>() {
@@ -64,26 +85,26 @@ fn compare_families<T: Real>() {
     for family in families {
         for block in 0..if cfg!(miri) { 1 } else { 12 } {
             let scene = family.scene(7, block);
-            let culler = Culler::new(scene.frustum());
+            let prepared = Prepared::new(scene.frustum());
             let each = if cfg!(miri) { 5 } else { CASES };
             let cases = block * CASES..block * CASES + each;
             let segments: Vec<Segment<T>> = cases.map(|i| family.segment(&scene, 7, i)).collect();
             // Some blocks and a bit, so that a segment takes every lane.
             let many: Vec<_> = (0..9).flat_map(|k| &segments[k % 5..]).copied().collect();
             for level in levels() {
-                compare(level, &culler, &many[block as usize % 5..]);
+                compare(level, &prepared, &many[block as usize % 5..]);
             }
         }
     }
 }
 
 #[test]
-fn families_in_singles_give_what_each_gives_alone() {
+fn families_in_f32_give_what_each_gives_alone() {
     compare_families::<f32>();
 }
 
 #[test]
-fn families_in_doubles_give_what_each_gives_alone() {
+fn families_in_f64_give_what_each_gives_alone() {
     compare_families::<f64>();
 }
 
@@ -96,29 +117,29 @@ fn sixteen_at_a_time_give_the_same() {
         Family::ALL.to_vec()
     } {
         let scene = family.scene(7, 0);
-        let culler = Culler::new(scene.frustum());
+        let prepared = Prepared::new(scene.frustum());
         let segments = (0..3 * CASES).map(|i| family.segment(&scene, 7, i));
         let segments: Vec<Segment<f32>> = segments.collect();
         let (mut eight, mut sixteen) = (SegmentIntervals::default(), SegmentIntervals::default());
         for segments in [&segments[..], &segments[5..700.min(segments.len())]] {
-            let lot = Segments::from(segments);
-            culler.clip_intervals(lot, &mut eight).unwrap();
+            let batch = Segments::from(segments);
+            prepared.clip(Level::new(), &batch, &mut eight).unwrap();
             for level in levels() {
-                let asked = Asked {
-                    frustum: culler.frustum(),
-                    rows: culler.rows().single(),
-                    doubles: culler.rows().double(),
+                let prepared = super::Prepared {
+                    frustum: &prepared.frustum,
+                    planes: prepared.planes.single(),
+                    planes_f64: prepared.planes.double(),
                 };
                 let out = sixteen.prepare(segments.len());
-                sixteen_singles(level, asked, &lot, out).unwrap();
+                run::clip_f32_by_sixteen(level, prepared, &batch, out).unwrap();
                 assert!(eight == sixteen, "{family:?}, {level:?}");
             }
         }
     }
 }
 
-/// Numbers without a pattern, always the same, in -1..1.
-fn numbers() -> impl FnMut() -> f64 {
+/// Pseudo-random values in -1..1, always the same.
+fn noise() -> impl FnMut() -> f64 {
     let mut state = 88_172_645_463_325_252_u64;
     move || {
         state ^= state << 13;
@@ -134,11 +155,11 @@ fn frustum() -> Frustum {
     Frustum::new(Pose::IDENTITY, Shape::Finite { near, far }).unwrap()
 }
 
-/// What is in no special place is settled in registers, but for few.
+/// Segments in no special position are settled in registers, except a few.
 #[test]
-fn hardly_any_segment_of_a_scene_is_unsure() {
-    let mut next = numbers();
-    let culler = Culler::new(&frustum());
+fn hardly_any_segment_of_a_scene_is_uncertain() {
+    let mut next = noise();
+    let prepared = Prepared::new(&frustum());
     let mut point = |scale: f64| [scale * next(), scale * next(), 2.0 + scale * next()];
     let mut segment = || {
         let (p, d) = (point(6.0), point(2.0));
@@ -147,11 +168,11 @@ fn hardly_any_segment_of_a_scene_is_unsure() {
     };
     let segments: Vec<Segment<f32>> = (0..20_000).map(|_| segment()).collect();
     for level in levels() {
-        let unsure = compare(level, &culler, &segments);
-        assert!((1..40).contains(&unsure), "{unsure}");
+        let uncertain = compare(level, &prepared, &segments);
+        assert!((1..40).contains(&uncertain), "{uncertain}");
     }
     let class = |class| {
-        let all = segments.iter().map(|s| expected(culler.frustum(), s).0);
+        let all = segments.iter().map(|s| expected(&prepared.frustum, s).0);
         all.filter(|c| *c == class).count()
     };
     for class in [Class::Outside, Class::Inside, Class::Cross].map(class) {
@@ -160,16 +181,17 @@ fn hardly_any_segment_of_a_scene_is_unsure() {
 }
 
 #[test]
-fn what_is_not_finite_is_told_by_the_first_of_it() {
-    let culler = Culler::new(&frustum());
+fn the_first_segment_that_is_not_finite_is_the_error() {
+    let prepared = Prepared::new(&frustum());
     let mut intervals = SegmentIntervals::default();
     for at in [0, 1, 7, 255, 256, 700] {
         let mut segments = vec![Segment::new([0.0_f32, 0.0, 2.0], [0.5, 9.0, 2.0]); 701];
         segments[at].end.y = f32::NAN;
         segments[700].start.z = f32::INFINITY;
-        let arrays = arrays(&segments);
-        for lot in [Segments::from(lot(&arrays)), Segments::from(&segments)] {
-            let found = culler.clip_intervals(lot, &mut intervals).unwrap_err();
+        let columns = columns(&segments);
+        for batch in [Segments::from(arrays(&columns)), Segments::from(&segments)] {
+            let found = prepared.clip(Level::new(), &batch, &mut intervals);
+            let found = found.unwrap_err();
             let expected = segments[at].check_finite().unwrap_err();
             let expected = NonFiniteAt {
                 index: at,
@@ -180,34 +202,31 @@ fn what_is_not_finite_is_told_by_the_first_of_it() {
             assert!(intervals.is_empty());
         }
     }
-    culler
-        .clip_intervals(
-            &Vec::<Segment<f64>>::new(),
-            &mut SegmentIntervals::default(),
-        )
-        .unwrap();
+    let none = Segments::from(&[] as &[Segment<f64>]);
+    let done = prepared.clip(Level::new(), &none, &mut SegmentIntervals::default());
+    assert_eq!(done, Ok(()));
 }
 
-/// Sizes near the largest and the least numbers.
+/// Sizes near the largest and the smallest values.
 #[test]
 fn extreme_sizes_are_as_alone() {
-    let mut next = numbers();
-    let culler = Culler::new(&frustum());
+    let mut next = noise();
+    let prepared = Prepared::new(&frustum());
     for exponent in [-149, -126, -60, 30, 90, 119, 121, 127] {
         let scale = f64::from(exponent).exp2();
         let mut point = || [next() * scale, next() * scale, next() * scale].map(|v| v as f32);
         let segments: Vec<_> = (0..600).map(|_| Segment::new(point(), point())).collect();
         let wide: Vec<Segment<f64>> = segments.iter().map(|s| s.to_f64()).collect();
         for level in levels() {
-            compare(level, &culler, &segments);
-            compare(level, &culler, &wide);
+            compare(level, &prepared, &segments);
+            compare(level, &prepared, &wide);
         }
     }
 }
 
-/// A parameter half-way between two singles: an interval of doubles has both in it.
+/// A parameter half-way between two `f32`: its interval in `f64` contains both.
 #[test]
-fn a_parameter_between_two_singles_is_found_precisely() {
+fn a_parameter_between_two_f32_is_found_precisely() {
     let end = |z| EndRect::new(z, -1.0, 1e9, -1e9, 1e9);
     let (near, far) = (end(1.0), end(1e9));
     let frustum = Frustum::new(Pose::IDENTITY, Shape::Finite { near, far }).unwrap();
@@ -215,31 +234,31 @@ fn a_parameter_between_two_singles_is_found_precisely() {
     // (2^24 + 3) / 2^25
     let segment = Segment::new([-size - 4.0, 0.0, 1e6], [size - 4.0, 0.0, 1e6]);
     for level in levels() {
-        let unsure = compare(level, &Culler::new(&frustum), &[segment; 3]);
-        assert_eq!(unsure, 3);
+        let uncertain = compare(level, &Prepared::new(&frustum), &[segment; 3]);
+        assert_eq!(uncertain, 3);
     }
     let (_, t0, _) = expected(&frustum, &segment);
     assert_eq!(t0, 0.5 + 2.0 * f32::EPSILON / 2.0);
 }
 
-/// Up to the largest numbers, and down to the least.
+/// Up to the largest values, and down to the smallest.
 #[test]
 fn every_magnitude_gives_what_each_gives_alone() {
     fn check<T: Real>(exponents: std::ops::Range<i32>) {
-        let culler = Culler::new(&frustum());
-        let mut next = numbers();
+        let prepared = Prepared::new(&frustum());
+        let mut next = noise();
         for exponent in exponents.step_by(3) {
-            let mut number = || {
+            let mut coordinate = || {
                 let near = 3.0 * next();
                 match next() > 0.0 {
                     true => near * 2.0_f64.powi(exponent),
                     false => near,
                 }
             };
-            let mut point = || [number(), number(), number()].map(T::from_f64);
+            let mut point = || [coordinate(), coordinate(), coordinate()].map(T::from_f64);
             let segments: Vec<_> = (0..64).map(|_| Segment::new(point(), point())).collect();
             for level in levels() {
-                compare(level, &culler, &segments);
+                compare(level, &prepared, &segments);
             }
         }
     }
@@ -247,7 +266,7 @@ fn every_magnitude_gives_what_each_gives_alone() {
     check::<f64>(if cfg!(miri) { 900..903 } else { -1022..1022 });
 }
 
-/// What runs along a face meets it nowhere, and a face that is not there is not met.
+/// A segment along a face does not cross it, and nothing crosses a missing far face.
 #[test]
 fn segments_along_faces_are_settled() {
     let rect = Rect {
@@ -264,8 +283,8 @@ fn segments_along_faces_are_settled() {
     };
     for shape in [Shape::Finite { near, far }, infinite] {
         let frustum = Frustum::new(Pose::IDENTITY, shape).unwrap();
-        let culler = Culler::new(&frustum);
-        let mut next = numbers();
+        let prepared = Prepared::new(&frustum);
+        let mut next = noise();
         let mut segment = |k: usize| {
             let start = [2.0 * next(), 2.0 * next(), 2.0 + 2.0 * next()];
             let mut end = start;
@@ -275,9 +294,9 @@ fn segments_along_faces_are_settled() {
         let segments: Vec<Segment<f32>> = (0..6_000).map(&mut segment).collect();
         let wide: Vec<Segment<f64>> = segments.iter().map(|s| s.to_f64()).collect();
         for level in levels() {
-            let unsure = compare(level, &culler, &segments);
-            assert!(unsure < 12, "{unsure}");
-            assert_eq!(compare(level, &culler, &wide), 0);
+            let uncertain = compare(level, &prepared, &segments);
+            assert!(uncertain < 12, "{uncertain}");
+            assert_eq!(compare(level, &prepared, &wide), 0);
         }
     }
 }

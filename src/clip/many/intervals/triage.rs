@@ -1,30 +1,32 @@
-//! What triage finds about a block, and what is found in the end.
+//! Triage of a block, and its answers when all segments are decided.
 //!
-//! A mark is a pair of parameters: 1 and 0 of what is outside, 0 and 1 of what is inside, 0 and 0
-//! of what is open.
+//! Triage gives each segment a pair of parameters: 1 and 0 if it is outside, 0 and 1 if it is
+//! inside, 0 and 0 if it is undecided.
 
-use super::planes::Planes;
-use super::queues::BLOCK;
+use super::super::queue::BLOCK;
+use super::frustum_lanes::FrustumLanes;
 use super::run::packs;
 use super::undecided::Undecided;
 use crate::clip::Class;
+use crate::clip::rules::compare::MinMax;
+use crate::clip::rules::triage::Extremes;
 use crate::math::Real;
 use fearless_simd::prelude::*;
 
-/// What triage finds about a block.
+/// The pairs of a block.
 pub(super) struct Triage<T> {
     t0: [T; BLOCK],
     t1: [T; BLOCK],
 }
 
-/// What is found about a block.
-pub(super) struct Found<'a, T> {
+/// The answers of a block.
+pub(super) struct Answers<'a, T> {
     pub(super) classes: &'a mut [Class; BLOCK],
     pub(super) t0: &'a mut [T; BLOCK],
     pub(super) t1: &'a mut [T; BLOCK],
 }
 
-/// The points of a register of segments, from `at` on.
+/// The ends of a register of segments, from `at` on.
 #[inline(always)]
 pub(super) fn ends<S, V, const N: usize, const M: usize>(
     simd: S,
@@ -57,47 +59,45 @@ impl<T: Real> Triage<T> {
         }
     }
 
-    /// Triage what is outside of a face, or inside of all, by their values' signs, and packs
-    /// the rest, if registers can be packed.
+    /// Decides which segments are outside of a face, or inside of all, by their values' signs, and
+    /// packs the others, if registers can be packed.
     #[inline(always)]
-    pub(super) fn triage<S, V, const N: usize>(
+    pub(super) fn decide<S, V, const N: usize>(
         &mut self,
         simd: S,
-        planes: &Planes<S, V>,
+        frustum: &FrustumLanes<S, V>,
         block: [&[T; BLOCK]; 6],
-        open: &mut Undecided<T>,
+        undecided: &mut Undecided<T>,
     ) where
         S: Simd,
-        V: SimdFloat<S, Element = T, Array = [T; N]>,
+        V: SimdFloat<S, Element = T, Array = [T; N]> + MinMax,
     {
         for at in (0..BLOCK).step_by(N) {
             let ends = ends::<S, V, N, BLOCK>(simd, block, at);
             let [p, q] = &ends;
-            let size = planes.size(&ends);
-            let [start, end] = [planes.near_far(p), planes.near_far(q)];
-            let mut greatest = start[0].max(end[0]).min(start[1].max(end[1]));
-            let mut least = start[0].min(end[0]).min(start[1].min(end[1]));
+            let size = frustum.size(&ends);
+            let [start, end] = [frustum.near_far(p), frustum.near_far(q)];
+            let mut extremes = Extremes::new(start[0], end[0]);
+            extremes.add(start[1], end[1]);
             for side in 0..4 {
-                let (a, b) = (planes.side(side, p), planes.side(side, q));
-                greatest = greatest.min(a.max(b));
-                least = least.min(a.min(b));
+                extremes.add(frustum.side(side, p), frustum.side(side, q));
             }
-            let covered = planes.covers(&size);
-            let outside = covered & greatest.simd_lt(-size.threshold);
-            let inside = covered & least.simd_gt(size.threshold);
+            let covered = frustum.covers(&size);
+            let outside = covered & extremes.greatest.simd_lt(-size.threshold);
+            let inside = covered & extremes.least.simd_gt(size.threshold);
             let to = at..at + N;
-            let (zero, one) = (planes.zero, planes.one);
+            let (zero, one) = (frustum.zero, frustum.one);
             outside
                 .select(one, zero)
                 .store_slice(&mut self.t0[to.clone()]);
             inside.select(one, zero).store_slice(&mut self.t1[to]);
             if packs(simd) {
-                open.pack::<S, V, N>(ends, !(outside | inside));
+                undecided.pack::<S, V, N>(ends, !(outside | inside));
             }
         }
     }
 
-    /// Nothing from `end` on is open; how many were.
+    /// Makes the segments from `end` on outside if they are undecided, and returns how many were.
     pub(super) fn keep_below(&mut self, end: usize) -> usize {
         let mut dropped = 0;
         for (t0, t1) in self.t0[end..].iter_mut().zip(&self.t1[end..]) {
@@ -109,9 +109,9 @@ impl<T: Real> Triage<T> {
         dropped
     }
 
-    /// Which of a register of segments are open.
+    /// Which segments of a register are undecided.
     #[inline(always)]
-    pub(super) fn open<S, V, const N: usize>(&self, simd: S, at: usize) -> V::Mask
+    pub(super) fn undecided<S, V, const N: usize>(&self, simd: S, at: usize) -> V::Mask
     where
         S: Simd,
         V: SimdFloat<S, Element = T>,
@@ -120,32 +120,36 @@ impl<T: Real> Triage<T> {
         t0.simd_eq(V::from_slice(simd, &self.t1[at..at + N]))
     }
 
-    /// All together.
+    /// Merges the parameters found for the undecided segments with the others, and classifies all.
     #[inline(always)]
-    pub(super) fn close<S, V, const N: usize>(&self, simd: S, open: &Undecided<T>, to: Found<'_, T>)
-    where
+    pub(super) fn merge<S, V, const N: usize>(
+        &self,
+        simd: S,
+        undecided: &Undecided<T>,
+        to: Answers<'_, T>,
+    ) where
         S: Simd,
         V: SimdFloat<S, Element = T>,
     {
         if packs(simd) {
             let mut place = 0;
             for at in (0..BLOCK).step_by(N) {
-                let lanes = self.open::<S, V, N>(simd, at);
+                let lanes = self.undecided::<S, V, N>(simd, at);
                 let t0 = V::from_slice(simd, &self.t0[at..at + N]);
                 let t1 = V::from_slice(simd, &self.t1[at..at + N]);
                 let from = place..place + N;
                 let to_t0 = &mut to.t0[at..at + N];
-                let found = V::from_slice(simd, &open.t0[from.clone()]);
+                let found = V::from_slice(simd, &undecided.t0[from.clone()]);
                 V::expand_merge(found, lanes, t0).store_slice(to_t0);
                 let to_t1 = &mut to.t1[at..at + N];
-                let found = V::from_slice(simd, &open.t1[from]);
+                let found = V::from_slice(simd, &undecided.t1[from]);
                 V::expand_merge(found, lanes, t1).store_slice(to_t1);
                 place = (place + lanes.to_bitmask().count_ones() as usize).min(BLOCK);
             }
         } else {
             *to.t0 = self.t0;
             *to.t1 = self.t1;
-            open.scatter(to.t0, to.t1);
+            undecided.scatter(to.t0, to.t1);
         }
         for i in 0..BLOCK {
             to.classes[i] = if to.t0[i] > to.t1[i] {

@@ -1,70 +1,71 @@
-//! A register of singles as two of doubles, and numbers looked up for each lane.
+//! A register of `f32` as two of `f64`, and values looked up for each lane.
 
 use fearless_simd::prelude::*;
 use fearless_simd::{f32x8, f32x16, f64x4, f64x8, u8x64, u32x8, u32x16};
 
-/// A register of singles.
+/// A register of `f32`.
 pub(super) trait Widen<S: Simd>: SimdFloat<S, Element = f32> {
-    /// Half of its lanes, in doubles.
-    type Half: SimdFloat<S, Element = f64>;
+    /// A register of `f64` with half of the lanes.
+    type Wide: SimdFloat<S, Element = f64>;
 
-    /// Eight doubles.
+    /// Eight values.
     type Table;
 
-    fn table(simd: S, numbers: [f64; 8]) -> Self::Table;
+    fn table(simd: S, values: [f64; 8]) -> Self::Table;
 
-    fn halves(self) -> [Self::Half; 2];
+    /// The first half of the lanes, then the second.
+    fn to_wide(self) -> [Self::Wide; 2];
 
-    /// Each rounded to the nearest single.
-    fn whole(halves: [Self::Half; 2]) -> Self;
+    /// Each value rounded to the nearest `f32`.
+    fn from_wide(halves: [Self::Wide; 2]) -> Self;
 
-    /// Of each table the number at a place, for each lane: of the first half, then of the
-    /// second.
-    fn look_up(tables: &[Self::Table; 4], places: Self::Bits) -> [[Self::Half; 4]; 2];
+    /// The value at each lane's index, from each table: for the first half of the lanes, then for
+    /// the second.
+    fn look_up(tables: &[Self::Table; 4], indices: Self::Bits) -> [[Self::Wide; 4]; 2];
 }
 
-/// Eight doubles, whole and as lower and upper words.
-pub(super) struct Eight {
-    numbers: [f64; 8],
+/// Eight values, and their lower and upper words.
+pub(super) struct Table {
+    values: [f64; 8],
     words: [[u32; 8]; 2],
 }
 
 impl<S: Simd> Widen<S> for f32x8<S> {
-    type Half = f64x4<S>;
-    type Table = Eight;
+    type Wide = f64x4<S>;
+    type Table = Table;
 
-    fn table(_: S, numbers: [f64; 8]) -> Eight {
-        Eight {
-            numbers,
+    fn table(_: S, values: [f64; 8]) -> Table {
+        Table {
+            values,
             words: [
-                numbers.map(|n| n.to_bits() as u32),
-                numbers.map(|n| (n.to_bits() >> 32) as u32),
+                values.map(|v| v.to_bits() as u32),
+                values.map(|v| (v.to_bits() >> 32) as u32),
             ],
         }
     }
 
     #[inline(always)]
-    fn halves(self) -> [f64x4<S>; 2] {
+    fn to_wide(self) -> [f64x4<S>; 2] {
         let (first, second) = self.widen();
         [first, second]
     }
 
     #[inline(always)]
-    fn whole([first, second]: [f64x4<S>; 2]) -> Self {
+    fn from_wide([first, second]: [f64x4<S>; 2]) -> Self {
         f64x4::narrow(first, second)
     }
 
     #[inline(always)]
-    fn look_up(tables: &[Eight; 4], places: u32x8<S>) -> [[f64x4<S>; 4]; 2] {
-        let simd = places.token();
+    fn look_up(tables: &[Table; 4], indices: u32x8<S>) -> [[f64x4<S>; 4]; 2] {
+        let simd = indices.token();
         let [x, y, z, offset] = tables;
         #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
         if let Some(avx2) = simd.level().as_avx2() {
-            let places = avx2::in_turn(avx2, places.into());
-            let x = avx2::look_up(avx2, x.words, places);
-            let y = avx2::look_up(avx2, y.words, places);
-            let z = avx2::look_up(avx2, z.words, places);
-            let offset = avx2::look_up(avx2, offset.words, places);
+            let indices = avx2::in_turn(avx2, indices.into());
+            let x = avx2::look_up(avx2, x.words, indices);
+            let y = avx2::look_up(avx2, y.words, indices);
+            let z = avx2::look_up(avx2, z.words, indices);
+            let offset = avx2::look_up(avx2, offset.words, indices);
             return [
                 [
                     x[0].simd_into(simd),
@@ -80,7 +81,7 @@ impl<S: Simd> Widen<S> for f32x8<S> {
                 ],
             ];
         }
-        let [a, b, c, d, e, f, g, h]: [u32; 8] = places.into();
+        let [a, b, c, d, e, f, g, h]: [u32; 8] = indices.into();
         let (first, second) = ([a, b, c, d], [e, f, g, h]);
         [
             [
@@ -99,14 +100,14 @@ impl<S: Simd> Widen<S> for f32x8<S> {
     }
 }
 
-/// Four of eight numbers.
+/// Four of eight values.
 #[inline(always)]
-fn four<S: Simd>(simd: S, table: &Eight, [a, b, c, d]: [u32; 4]) -> f64x4<S> {
-    let at = |place: u32| table.numbers[place as usize & 7];
+fn four<S: Simd>(simd: S, table: &Table, [a, b, c, d]: [u32; 4]) -> f64x4<S> {
+    let at = |index: u32| table.values[index as usize & 7];
     [at(a), at(b), at(c), at(d)].simd_into(simd)
 }
 
-/// Doubles are looked up by their words.
+/// Values are looked up by their words.
 #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
 mod avx2 {
     use fearless_simd::prelude::*;
@@ -117,25 +118,29 @@ mod avx2 {
     use std::arch::x86_64::*;
 
     kernel!(
-        /// Places 0, 1, 4, 5, 2, 3, 6, 7: words that are interleaved then come in order.
+        /// Lanes 0, 1, 4, 5, 2, 3, 6, 7: interleaved words then come in order.
         #[inline(always)]
-        pub(super) fn in_turn(avx2: Avx2, places: [u32; 8]) -> [u32; 8] {
-            let places = u32x8::simd_from(avx2, places).into();
-            let places = _mm256_permute4x64_epi64::<0b11_01_10_00>(places);
-            u32x8::simd_from(avx2, places).into()
+        pub(super) fn in_turn(avx2: Avx2, indices: [u32; 8]) -> [u32; 8] {
+            let indices = u32x8::simd_from(avx2, indices).into();
+            let indices = _mm256_permute4x64_epi64::<0b11_01_10_00>(indices);
+            u32x8::simd_from(avx2, indices).into()
         }
     );
 
     kernel!(
-        /// The numbers with these words at eight places in turn.
+        /// The values with these words, at eight indices from [`in_turn`].
         #[inline(always)]
-        pub(super) fn look_up(avx2: Avx2, words: [[u32; 8]; 2], places: [u32; 8]) -> [[f64; 4]; 2] {
-            let places = u32x8::simd_from(avx2, places).into();
+        pub(super) fn look_up(
+            avx2: Avx2,
+            words: [[u32; 8]; 2],
+            indices: [u32; 8],
+        ) -> [[f64; 4]; 2] {
+            let indices = u32x8::simd_from(avx2, indices).into();
             let [low, high] = words;
             let low: __m256i = u32x8::simd_from(avx2, low).into();
             let high: __m256i = u32x8::simd_from(avx2, high).into();
-            let low = _mm256_permutevar8x32_epi32(low, places);
-            let high = _mm256_permutevar8x32_epi32(high, places);
+            let low = _mm256_permutevar8x32_epi32(low, indices);
+            let high = _mm256_permutevar8x32_epi32(high, indices);
             let first = _mm256_castsi256_pd(_mm256_unpacklo_epi32(low, high));
             let second = _mm256_castsi256_pd(_mm256_unpackhi_epi32(low, high));
             [
@@ -147,29 +152,29 @@ mod avx2 {
 }
 
 impl<S: Simd> Widen<S> for f32x16<S> {
-    type Half = f64x8<S>;
+    type Wide = f64x8<S>;
     type Table = f64x8<S>;
 
-    fn table(simd: S, numbers: [f64; 8]) -> f64x8<S> {
-        numbers.simd_into(simd)
+    fn table(simd: S, values: [f64; 8]) -> f64x8<S> {
+        values.simd_into(simd)
     }
 
     #[inline(always)]
-    fn halves(self) -> [f64x8<S>; 2] {
+    fn to_wide(self) -> [f64x8<S>; 2] {
         let (first, second) = self.widen();
         [first, second]
     }
 
     #[inline(always)]
-    fn whole([first, second]: [f64x8<S>; 2]) -> Self {
+    fn from_wide([first, second]: [f64x8<S>; 2]) -> Self {
         f64x8::narrow(first, second)
     }
 
     #[inline(always)]
-    fn look_up(tables: &[f64x8<S>; 4], places: u32x16<S>) -> [[f64x8<S>; 4]; 2] {
-        let simd = places.token();
+    fn look_up(tables: &[f64x8<S>; 4], indices: u32x16<S>) -> [[f64x8<S>; 4]; 2] {
+        let simd = indices.token();
         let [x, y, z, offset] = *tables;
-        let bytes: u8x64<S> = (places << 3).bitcast();
+        let bytes: u8x64<S> = (indices << 3).bitcast();
         let each = u8x64::simd_from(simd, BYTES);
         let first = bytes.swizzle_dyn(u8x64::simd_from(simd, LOWEST_BYTES[0])) + each;
         let second = bytes.swizzle_dyn(u8x64::simd_from(simd, LOWEST_BYTES[1])) + each;
@@ -190,26 +195,26 @@ impl<S: Simd> Widen<S> for f32x16<S> {
     }
 }
 
-/// For each byte of eight doubles the lowest one of the single of its lane: of the first half
+/// For each byte of eight `f64`, the lowest byte of the `f32` of the same lane: of the first half
 /// of a register, and of the second.
 const LOWEST_BYTES: [[u8; 64]; 2] = {
-    let mut all = [[0; 64]; 2];
+    let mut bytes = [[0; 64]; 2];
     let mut i = 0;
     while i < 64 {
-        all[0][i] = 4 * (i as u8 / 8);
-        all[1][i] = 32 + all[0][i];
+        bytes[0][i] = 4 * (i as u8 / 8);
+        bytes[1][i] = 32 + bytes[0][i];
         i += 1;
     }
-    all
+    bytes
 };
 
-/// The bytes of a double, eight times.
+/// The indices of an `f64`'s bytes, eight times.
 const BYTES: [u8; 64] = {
-    let mut all = [0; 64];
+    let mut bytes = [0; 64];
     let mut i = 0;
     while i < 64 {
-        all[i] = i as u8 % 8;
+        bytes[i] = i as u8 % 8;
         i += 1;
     }
-    all
+    bytes
 };
