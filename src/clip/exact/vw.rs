@@ -59,19 +59,20 @@ fn clip_in<T: Real, L: Layout>(
 ) -> Result<SegmentClip<T>, NonFinite> {
     let filter = frustum.filter();
     let wide = segment.to_f64();
-    let [p, q] = filter.values_in::<L>(&wide);
+    let values = filter.values_in::<L>(&wide);
+    let [p, q] = &values;
     if filter.may_be_lattice(wide.start)
         && accuracy == Accuracy::Fast
-        && let Some(result) = lattice::clip(filter, segment, &p, &q)
+        && let Some(result) = lattice::clip(filter, segment, p, q)
     {
         counts.lattice += 1;
         return Ok(result);
     }
-    match triage(filter, &p, &q) {
+    match triage(filter, p, q) {
         Verdict::Outside => Ok(outside()),
         Verdict::Inside => Ok(inside(segment)),
-        Verdict::Crossing => cross(frustum, segment, accuracy, counts, &[p, q]),
-        Verdict::Uncertain => exactly(frustum, segment, accuracy, counts, &[p, q]),
+        Verdict::Crossing => cross(frustum, segment, accuracy, counts, &values),
+        Verdict::Uncertain => exactly(frustum, segment, accuracy, counts, &values),
     }
 }
 
