@@ -145,19 +145,16 @@ fn boxes_of(name: &str, rounds: usize, culler: &Culler, all: &BoxColumns, piece:
     let mut masks: [ContainmentMasks; 2] = Default::default();
     let mut lists: [Vec<u32>; 2] = Default::default();
     for (range, set) in all.pieces(piece).zip(&sets) {
-        culler
-            .mask_boxes(all.range(range.clone()), &mut masks[0])
-            .expect("boxes");
-        culler.mask_boxes(set, &mut masks[1]).expect("boxes");
-        culler
-            .visible_boxes(all.range(range.clone()), &mut lists[0])
-            .expect("boxes");
-        culler.visible_boxes(set, &mut lists[1]).expect("boxes");
+        let arrays = all.range(range.clone());
+        culler.over(arrays).masks(&mut masks[0]).expect("boxes");
+        culler.over(set).masks(&mut masks[1]).expect("boxes");
+        culler.over(arrays).visible(&mut lists[0]).expect("boxes");
+        culler.over(set).visible(&mut lists[1]).expect("boxes");
         assert!(masks[0] == masks[1] && lists[0] == lists[1]);
         assert!(masks[0].visible().eq(lists[0].iter().map(|&i| i as usize)));
-        for (i, number) in range.enumerate().step_by(97) {
-            let one = culler.classify(all.get(number)).expect("a box");
-            assert_eq!(masks[0].get(i), Some(one), "{:?}", all.get(number));
+        for (i, index) in range.enumerate() {
+            let one = culler.classify(all.get(index)).expect("a box");
+            assert_eq!(masks[0].get(i), Some(one), "{:?}", all.get(index));
         }
     }
     let [masks, masks_of_set] = &mut masks;
@@ -168,22 +165,24 @@ fn boxes_of(name: &str, rounds: usize, culler: &Culler, all: &BoxColumns, piece:
     });
     let masks = timed(count, || {
         for range in all.pieces(piece) {
-            culler.mask_boxes(all.range(range), masks).expect("boxes");
+            let query = culler.over(all.range(range));
+            query.masks(masks).expect("boxes");
         }
     });
     let list = timed(count, || {
         for range in all.pieces(piece) {
-            culler.visible_boxes(all.range(range), list).expect("boxes");
+            let query = culler.over(all.range(range));
+            query.visible(list).expect("boxes");
         }
     });
     let masks_of_set = timed(count, || {
         for set in &sets {
-            culler.mask_boxes(set, masks_of_set).expect("boxes");
+            culler.over(set).masks(masks_of_set).expect("boxes");
         }
     });
     let list_of_set = timed(count, || {
         for set in &sets {
-            culler.visible_boxes(set, list_of_set).expect("boxes");
+            culler.over(set).visible(list_of_set).expect("boxes");
         }
     });
     let passes = vec![
@@ -296,12 +295,14 @@ fn threads(rounds: usize) {
 
         let (mut one, mut all): (ContainmentMasks, _) = Default::default();
         let set = &boxes.set(0..count);
-        culler.mask_boxes(set, &mut one).expect("boxes");
-        culler.par_mask_boxes(set, &mut all).expect("boxes");
+        culler.over(set).masks(&mut one).expect("boxes");
+        let query = culler.over(set).parallel();
+        query.masks(&mut all).expect("boxes");
         assert!(one == all && one.visible().count() > count / 100);
-        let by_one = timed(count, || culler.mask_boxes(set, &mut one).expect("boxes"));
+        let by_one = timed(count, || culler.over(set).masks(&mut one).expect("boxes"));
         let by_all = timed(count, || {
-            culler.par_mask_boxes(set, &mut all).expect("boxes")
+            let query = culler.over(set).parallel();
+            query.masks(&mut all).expect("boxes")
         });
         let name = format!("boxes, {place} cache");
         row(&name, rounds, vec![("one", by_one), ("all", by_all)]);

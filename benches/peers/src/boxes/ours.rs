@@ -47,7 +47,7 @@ impl Peer for OursPoint {
 /// What boxes' times are compared with: one a call, and in batches.
 pub const REFERENCE_BOX: &str = "Culler::classify";
 /// In batches.
-pub const REFERENCE_BOXES: &str = "Culler::visible_boxes, a set";
+pub const REFERENCE_BOXES: &str = "Culler::over, visible in a set";
 
 /// `Culler::classify`, plane by plane, or `Culler::classify_exact`.
 pub struct OursBox {
@@ -153,19 +153,19 @@ impl OursBatch {
             max: [d, e, f],
         };
         match self.batch {
-            Batch::Masks => self.culler.mask_boxes(arrays, &mut self.masks),
-            Batch::List => self.culler.visible_boxes(arrays, &mut self.list),
+            Batch::Masks => self.culler.over(arrays).masks(&mut self.masks),
+            Batch::List => self.culler.over(arrays).visible(&mut self.list),
             Batch::ListOfBoxes => {
                 let boxes = &self.boxes[from..to];
-                self.culler.visible_boxes(boxes, &mut self.list)
+                self.culler.over(boxes).visible(&mut self.list)
             }
             Batch::MasksOfSet => {
                 let set = &self.sets[from / PIECE];
-                self.culler.mask_boxes(set, &mut self.masks)
+                self.culler.over(set).masks(&mut self.masks)
             }
             Batch::ListOfSet => {
                 let set = &self.sets[from / PIECE];
-                self.culler.visible_boxes(set, &mut self.list)
+                self.culler.over(set).visible(&mut self.list)
             }
         }
     }
@@ -183,11 +183,11 @@ impl Timed for OursBatch {
         Who {
             library: "frusta",
             function: match self.batch {
-                Batch::Masks => "Culler::mask_boxes, arrays",
-                Batch::MasksOfSet => "Culler::mask_boxes, a set",
+                Batch::Masks => "Culler::over, masks of arrays",
+                Batch::MasksOfSet => "Culler::over, masks of a set",
                 Batch::ListOfSet => REFERENCE_BOXES,
-                Batch::List => "Culler::visible_boxes, arrays",
-                Batch::ListOfBoxes => "Culler::visible_boxes, slice",
+                Batch::List => "Culler::over, visible in arrays",
+                Batch::ListOfBoxes => "Culler::over, visible in a slice",
             },
             scalar: "f32",
             note: "4,096 a call; outside and inside exact, conservative by design",

@@ -106,8 +106,8 @@ fn sixteen_at_a_time_give_the_same() {
             for level in levels() {
                 let asked = Asked {
                     frustum: culler.frustum(),
-                    rows: culler.rows().single(),
-                    doubles: culler.rows().double(),
+                    rows: culler.face_planes().single(),
+                    doubles: culler.face_planes().double(),
                 };
                 let out = sixteen.prepare(segments.len());
                 sixteen_singles(level, asked, &lot, out).unwrap();
