@@ -37,7 +37,7 @@ use wide::f64x2;
 /// | one, in a tree | [`classify_masked`](Self::classify_masked) | the same, by the faces that its parent crosses |
 /// | one | [`classify_exact`](Self::classify_exact) | exact: *crossing* only where frustum and volume meet |
 /// | many, a draw list | [`over`](Self::over)`(..).visible(..)` | the indices of those that are not outside |
-/// | many | [`over`](Self::over)`(..).classes(..)`, `.masks(..)` | as of `classify`, a class or two bits each |
+/// | many | [`over`](Self::over)`(..).classes(..)`, `.masks(..)` | the answer of `classify`, as a class or two bits for each |
 /// | many, on threads | `over(..).parallel()` | the same (feature `parallel`) |
 /// | many segments | [`clip_intervals`](Self::clip_intervals) | class and parameters |
 ///
@@ -202,7 +202,7 @@ impl Culler {
     /// corner: [`Culler::classify_exact`] decides that, too.
     ///
     /// # Errors
-    /// As of [`Volume::check`].
+    /// Those of [`Volume::check`].
     #[inline]
     pub fn classify(&self, volume: impl Into<Volume>) -> Result<Containment, VolumeError> {
         self.classify_counted(volume, &mut VolumeCounts::default())
@@ -211,7 +211,7 @@ impl Culler {
     /// As [`Culler::classify`], and adds to `counts` how often each stage was needed.
     ///
     /// # Errors
-    /// As of [`Volume::check`].
+    /// Those of [`Volume::check`].
     #[inline]
     pub fn classify_counted(
         &self,
@@ -306,7 +306,7 @@ impl Culler {
     /// ```
     ///
     /// # Errors
-    /// As of [`Volume::check`].
+    /// Those of [`Volume::check`].
     pub fn classify_masked(
         &self,
         volume: impl Into<Volume>,

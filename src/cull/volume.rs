@@ -371,7 +371,7 @@ impl Volume {
     /// Checks that the volume is valid.
     ///
     /// # Errors
-    /// As of [`Aabb::check`], [`Obb::check`] and [`Sphere::check`].
+    /// Those of [`Aabb::check`], [`Obb::check`] and [`Sphere::check`].
     #[inline]
     pub fn check(&self) -> Result<(), VolumeError> {
         match self {

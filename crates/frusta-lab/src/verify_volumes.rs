@@ -191,10 +191,10 @@ pub fn verify_volumes(
                 break;
             }
             let scene = family.scene(seed, block);
-            let numbers = block * BLOCK..((block + 1) * BLOCK).min(cases);
+            let indices = block * BLOCK..((block + 1) * BLOCK).min(cases);
             let bench = Bench::new(&scene, seed);
             for (i, kind) in kinds.clone().enumerate() {
-                let tally = bench.tally(kind, numbers.clone());
+                let tally = bench.tally(kind, indices.clone());
                 on_cases(tally.cases);
                 let mut rows = rows.lock().unwrap_or_else(|e| e.into_inner());
                 rows[i].tally += tally;
@@ -228,21 +228,21 @@ impl<'a> Bench<'a> {
         }
     }
 
-    fn tally(&self, kind: VolumeKind, numbers: std::ops::Range<u64>) -> VolumeTally {
+    fn tally(&self, kind: VolumeKind, indices: std::ops::Range<u64>) -> VolumeTally {
         let (scene, seed) = (self.scene, self.seed);
         match kind {
-            VolumeKind::Box => self.boxes(numbers.map(|n| hard_box::<f64>(scene, seed, n))),
-            VolumeKind::BoxF32 => self.boxes(numbers.map(|n| hard_box::<f32>(scene, seed, n))),
+            VolumeKind::Box => self.boxes(indices.map(|n| hard_box::<f64>(scene, seed, n))),
+            VolumeKind::BoxF32 => self.boxes(indices.map(|n| hard_box::<f32>(scene, seed, n))),
             VolumeKind::Obb => {
                 let mut tally = VolumeTally::default();
-                for n in numbers {
+                for n in indices {
                     self.alone(hard_obb::<f64>(scene, seed, n).into(), &mut tally);
                 }
                 tally
             }
-            VolumeKind::Sphere => self.spheres(numbers.map(|n| hard_sphere::<f64>(scene, seed, n))),
+            VolumeKind::Sphere => self.spheres(indices.map(|n| hard_sphere::<f64>(scene, seed, n))),
             VolumeKind::SphereF32 => {
-                self.spheres(numbers.map(|n| hard_sphere::<f32>(scene, seed, n)))
+                self.spheres(indices.map(|n| hard_sphere::<f32>(scene, seed, n)))
             }
         }
     }

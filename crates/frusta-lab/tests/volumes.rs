@@ -62,8 +62,8 @@ fn scaling_and_mirroring_change_nothing() {
             let k = 1024.0;
             let axes = pose.axes.map(|a| a * (1.0 / k));
             let scaled = mapped(frustum, Pose::new(pose.origin * k, axes));
-            for number in block * BLOCK..(block + 1) * BLOCK {
-                let v = hard_box::<f64>(&scene, 5, number);
+            for index in block * BLOCK..(block + 1) * BLOCK {
+                let v = hard_box::<f64>(&scene, 5, index);
                 let expected = culler.classify_exact(v);
                 let flipped = Aabb::new([-v.max.x, v.min.y, v.min.z], [-v.min.x, v.max.y, v.max.z]);
                 assert_eq!(
@@ -73,14 +73,14 @@ fn scaling_and_mirroring_change_nothing() {
                 );
                 let large = Aabb::new(v.min * k, v.max * k);
                 assert_eq!(scaled.classify_exact(large), expected, "{family}: {v:?}");
-                let v = hard_sphere::<f64>(&scene, 5, number);
+                let v = hard_sphere::<f64>(&scene, 5, index);
                 let large = Sphere::new(v.center * k, v.radius * k);
                 assert_eq!(scaled.classify(large), culler.classify(v));
                 assert_eq!(scaled.classify_exact(large), culler.classify_exact(v));
                 let flipped = Sphere::new(flip(v.center), v.radius);
                 assert_eq!(mirrored.classify(flipped), culler.classify(v));
                 assert_eq!(mirrored.classify_exact(flipped), culler.classify_exact(v));
-                let v = hard_obb::<f64>(&scene, 5, number);
+                let v = hard_obb::<f64>(&scene, 5, index);
                 let expected = culler.classify_exact(v);
                 let large = Obb::new(v.center * k, v.half_axes.map(|h| h * k));
                 assert_eq!(scaled.classify_exact(large), expected, "{family}: {v:?}");
@@ -112,8 +112,8 @@ fn the_exact_test_reaches_every_stage() {
             for block in 0..3 {
                 let scene = family.scene(9, block);
                 let culler = Culler::new(scene.frustum());
-                for number in block * BLOCK..(block + 1) * BLOCK {
-                    let volume = volume(&scene, number);
+                for index in block * BLOCK..(block + 1) * BLOCK {
+                    let volume = volume(&scene, index);
                     let (mut by_planes, mut all) = <[VolumeCounts; 2]>::default().into();
                     let _ = culler.classify_counted(volume, &mut by_planes);
                     let _ = culler.classify_exact_counted(volume, &mut all);
@@ -137,8 +137,8 @@ fn the_same_set_has_the_same_exact_answer() {
     for &family in Family::ALL {
         let scene = family.scene(4, 1);
         let culler = Culler::new(scene.frustum());
-        for number in 0..BLOCK {
-            let v = hard_box::<f64>(&scene, 4, number);
+        for index in 0..BLOCK {
+            let v = hard_box::<f64>(&scene, 4, index);
             let oriented = Obb::from(v);
             let Obb {
                 center: c,
@@ -152,7 +152,7 @@ fn the_same_set_has_the_same_exact_answer() {
                 let expected = culler.classify_exact(v);
                 assert_eq!(culler.classify_exact(oriented), expected, "{family}: {v:?}");
             }
-            let at = hard_sphere::<f64>(&scene, 4, number).center;
+            let at = hard_sphere::<f64>(&scene, 4, index).center;
             let expected = culler.classify_exact(at);
             assert_eq!(culler.classify_exact(Sphere::new(at, 0.0)), expected);
             assert_eq!(culler.classify_exact(Obb::new(at, [[0.0; 3]; 3])), expected);
@@ -168,12 +168,12 @@ fn masks_and_hints_change_nothing() {
         let culler = Culler::new(scene.frustum());
         let all: FaceSet = scene.frustum().faces().iter().copied().collect();
         let mut hints = [None, Some(Face::Near), Some(Face::Top), Some(Face::Far)];
-        for number in 0..BLOCK {
-            let parent = hard_box::<f64>(&scene, 6, number);
+        for index in 0..BLOCK {
+            let parent = hard_box::<f64>(&scene, 6, index);
             let volumes: [Volume; 3] = [
                 parent.into(),
-                hard_obb::<f64>(&scene, 6, number).into(),
-                hard_sphere::<f64>(&scene, 6, number).into(),
+                hard_obb::<f64>(&scene, 6, index).into(),
+                hard_sphere::<f64>(&scene, 6, index).into(),
             ];
             for volume in volumes {
                 let expected = culler.classify(volume).unwrap();
@@ -209,8 +209,8 @@ fn kinds_agree() {
     for family in [Family::HalfLattice, Family::Infinite, Family::ApexWidth] {
         let scene = family.scene(8, 1);
         let culler = Culler::new(scene.frustum());
-        for number in BLOCK..2 * BLOCK {
-            let v = hard_box::<f32>(&scene, 8, number);
+        for index in BLOCK..2 * BLOCK {
+            let v = hard_box::<f32>(&scene, 8, index);
             let wide = v.to_f64();
             let half = (wide.max - wide.min) * 0.5;
             let zero = Vec3::new(0.0, 0.0, 0.0);
@@ -242,10 +242,10 @@ fn invalid_volumes_are_rejected() {
     let frustum = Frustum::new(Pose::IDENTITY, Shape::Finite { near, far }).unwrap();
     let culler = Culler::new(&frustum);
     for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
-        let mut numbers = [0.0, 0.0, 2.0, 1.0, 1.0, 2.5];
+        let mut components = [0.0, 0.0, 2.0, 1.0, 1.0, 2.5];
         for i in 0..6 {
-            let good = std::mem::replace(&mut numbers[i], bad);
-            let [a, b, c, d, e, f] = numbers;
+            let good = std::mem::replace(&mut components[i], bad);
+            let [a, b, c, d, e, f] = components;
             let volume = Aabb::new([a, b, c], [d, e, f]);
             let name = ["min.x", "min.y", "min.z", "max.x", "max.y", "max.z"][i];
             for error in [
@@ -261,7 +261,7 @@ fn invalid_volumes_are_rejected() {
             assert_eq!(culler.classify(sphere).is_err(), i < 4);
             let turned = Obb::new([a, b, c], [[d, e, f], [0.0; 3], [f, e, d]]);
             assert!(culler.classify(turned).is_err());
-            numbers[i] = good;
+            components[i] = good;
         }
     }
     let inverted = culler

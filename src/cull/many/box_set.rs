@@ -86,7 +86,7 @@ impl<T: Real> BoxSet<T> {
     /// Appends a box.
     ///
     /// # Errors
-    /// As of [`Aabb::check`]; nothing is then appended.
+    /// Those of [`Aabb::check`]; nothing is then appended.
     pub fn push(&mut self, volume: Aabb<T>) -> Result<(), VolumeError> {
         volume.check()?;
         self.append(volume);
@@ -107,10 +107,10 @@ impl<T: Real> BoxSet<T> {
     /// Replaces the box at an index.
     ///
     /// # Errors
-    /// As of [`Aabb::check`]; nothing is then changed.
+    /// Those of [`Aabb::check`]; nothing is then changed.
     ///
     /// # Panics
-    /// If the index is beyond the last box, as of a slice.
+    /// If the index is not below the length.
     pub fn set(&mut self, index: usize, volume: Aabb<T>) -> Result<(), VolumeError> {
         let len = self.len;
         assert!(index < len, "the index is {index} but the length is {len}");

@@ -118,7 +118,7 @@ impl<'q, S: VolumeSource> VolumeQuery<'q, S> {
     /// Writes the class of each volume.
     ///
     /// # Errors
-    /// As of [`VolumeQuery::visible`]; `classes` is then empty.
+    /// Those of [`VolumeQuery::visible`]; `classes` is then empty.
     pub fn classes(self, classes: &mut Vec<Containment>) -> Result<(), VolumeErrorAt> {
         self.write_to(classes)
     }
@@ -126,7 +126,7 @@ impl<'q, S: VolumeSource> VolumeQuery<'q, S> {
     /// Writes the class of each volume as bits.
     ///
     /// # Errors
-    /// As of [`VolumeQuery::visible`]; `masks` is then empty.
+    /// Those of [`VolumeQuery::visible`]; `masks` is then empty.
     pub fn masks(self, masks: &mut ContainmentMasks) -> Result<(), VolumeErrorAt> {
         self.write_to(masks)
     }

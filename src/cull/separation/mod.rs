@@ -135,7 +135,7 @@ impl Culler {
     /// ```
     ///
     /// # Errors
-    /// As of [`Volume::check`].
+    /// Those of [`Volume::check`].
     #[inline]
     pub fn classify_exact(&self, volume: impl Into<Volume>) -> Result<Containment, VolumeError> {
         self.classify_exact_counted(volume, &mut VolumeCounts::default())
@@ -144,7 +144,7 @@ impl Culler {
     /// As [`Culler::classify_exact`], and adds to `counts` how often each stage was needed.
     ///
     /// # Errors
-    /// As of [`Volume::check`].
+    /// Those of [`Volume::check`].
     #[inline]
     pub fn classify_exact_counted(
         &self,
