@@ -1,9 +1,13 @@
-//! Clipping allocates nothing, except where big integers are needed.
+//! Clipping and culling allocate nothing, except where big integers are needed.
 
 use frusta_lab::mixes;
 
+use frusta::cull::{BoxSet, ContainmentMasks, RelativeBoxes, VolumeSource};
 use frusta::samples::{BLOCK, Family, Placement, Solid, singular_samples};
-use frusta::{Accuracy, Frustum, Pose, Real, Segment, SegmentClipper, StageCounts, Vec3};
+use frusta::{
+    Aabb, Accuracy, Culler, Frustum, Pose, Real, Segment, SegmentClipper, Sphere, StageCounts,
+    Vec3, VolumeCounts,
+};
 use mixes::answers::{exact, plain};
 use mixes::{Form, Mix, frustum};
 
@@ -187,4 +191,44 @@ fn only_big_integers_allocate_in_any_family() {
     assert!(tally.without > tally.with, "{tally:?}");
     // Some families exist to need integers.
     assert!(tally.with > 100, "{tally:?}");
+}
+
+/// Queries over many volumes, from every source, write to buffers that were used before.
+#[test]
+fn queries_over_many_volumes_allocate_nothing() {
+    fn assert_query<S: VolumeSource + Copy>(culler: &Culler, source: S, count: usize) {
+        let mut indices = Vec::with_capacity(count);
+        let (mut classes, mut masks) = (Vec::new(), ContainmentMasks::default());
+        let mut counts = VolumeCounts::default();
+        let mut pass = || {
+            let query = culler.over(source).counted(&mut counts);
+            assert!(query.visible(&mut indices).is_ok());
+            assert!(culler.over(source).classes(&mut classes).is_ok());
+            assert!(culler.over(source).masks(&mut masks).is_ok());
+        };
+        pass();
+        assert_eq!(allocation_counter::measure(pass).count_total, 0);
+        assert_eq!(classes.len(), count);
+        assert_eq!(counts.integers, 0);
+    }
+    fn each_source<T: Real>(culler: &Culler, segments: &[Segment<T>]) {
+        let around = |s: &Segment<T>| Aabb::around([s.start, s.end]);
+        let boxes: Vec<Aabb<T>> = segments.iter().filter_map(around).collect();
+        let sphere = |s: &Segment<T>| Sphere::new(s.start, T::from_f64(0.125));
+        let spheres: Vec<Sphere<T>> = segments.iter().map(sphere).collect();
+        let set = BoxSet::new(boxes.iter().copied()).unwrap();
+        assert_query(culler, &boxes, boxes.len());
+        assert_query(culler, &set, boxes.len());
+        assert_query(culler, &spheres, spheres.len());
+        let wide: Vec<Aabb<f64>> = boxes.iter().map(|b| b.to_f64()).collect();
+        let anchor = wide[0].min;
+        let relative = RelativeBoxes::new(anchor, &wide).unwrap();
+        assert_query(culler, &relative, wide.len());
+    }
+    let pose = Pose::IDENTITY;
+    let culler = Culler::new(&frustum(Form::Symmetric.shape(), &pose));
+    for mix in Mix::ALL {
+        each_source::<f64>(&culler, &mix.segments(SOME, &pose));
+        each_source::<f32>(&culler, &mix.segments(SOME, &pose));
+    }
 }

@@ -1,12 +1,12 @@
-//! Batches, as ratios: to one by one, to reading or copying their bytes, and with threads to
-//! without.
+//! Many segments or volumes a call, as ratios: to one a call, to reading or copying their bytes,
+//! and with threads to without.
 //!
 //! `cargo bench --features parallel --bench batch [-- ROUNDS] [segments|boxes|exact|threads]`. All
 //! take turns, a ratio is taken within each round, and medians over the rounds are printed.
-//! Answers are compared with those of one at a time first.
+//! First, every answer is compared with that of one a call.
 //!
-//! *In cache* are 262,144 of them, which branch predictors cannot learn, 4,096 a call, as a
-//! program would that goes on with the answers; *out of cache* four million with one call.
+//! *In cache* are 262,144 of them, which branch predictors cannot learn, 4,096 a call, as in a
+//! program that goes on with the answers; *out of cache* four million with one call.
 
 mod data;
 mod separating;
@@ -26,13 +26,13 @@ use std::hint::black_box;
 use std::time::Instant;
 use turns::{Pass, take_turns};
 
-/// How many are asked about with one call.
+/// Number of segments or volumes a call.
 const PIECE: usize = 4096;
 
-/// What does not fit in caches.
+/// Number of segments or volumes that do not fit in caches.
 const MANY: usize = 4_000_000;
 
-/// What is done with so many, in nanoseconds each.
+/// A pass of work on `count` items, in nanoseconds each.
 fn timed<'a>(count: usize, mut work: impl FnMut() + 'a) -> Pass<'a> {
     Box::new(move || {
         let start = Instant::now();
@@ -41,7 +41,7 @@ fn timed<'a>(count: usize, mut work: impl FnMut() + 'a) -> Pass<'a> {
     })
 }
 
-/// Prints times and how many times as fast as the first, which are told.
+/// Prints times and ratios to the first, and returns the ratios.
 fn row(name: &str, rounds: usize, all: Vec<(&str, Pass<'_>)>) -> Vec<f64> {
     let (names, mut passes): (Vec<_>, Vec<_>) = all.into_iter().unzip();
     let turns = take_turns(&mut passes, rounds);
@@ -58,7 +58,7 @@ fn geometric_mean(ratios: &[f64]) -> f64 {
     (sum / ratios.len() as f64).exp()
 }
 
-/// All are what each is alone.
+/// Compares all intervals with single clips.
 fn assert_intervals(culler: &Culler, all: &[Segment<f32>], intervals: &SegmentIntervals<f32>) {
     assert_eq!(intervals.len(), all.len());
     for (segment, (class, t0, t1)) in all.iter().zip(intervals.iter()) {
@@ -139,25 +139,22 @@ fn segments_out_of_cache(rounds: usize) {
     }
 }
 
-/// Masks and lists of boxes from arrays and from a set.
+/// Times masks and lists of boxes from arrays and from a set.
 fn boxes_of(name: &str, rounds: usize, culler: &Culler, all: &BoxColumns, piece: usize) {
     let sets: Vec<BoxSet<f32>> = all.pieces(piece).map(|range| all.set(range)).collect();
     let mut masks: [ContainmentMasks; 2] = Default::default();
     let mut lists: [Vec<u32>; 2] = Default::default();
     for (range, set) in all.pieces(piece).zip(&sets) {
-        culler
-            .mask_boxes(all.range(range.clone()), &mut masks[0])
-            .expect("boxes");
-        culler.mask_boxes(set, &mut masks[1]).expect("boxes");
-        culler
-            .visible_boxes(all.range(range.clone()), &mut lists[0])
-            .expect("boxes");
-        culler.visible_boxes(set, &mut lists[1]).expect("boxes");
+        let arrays = all.range(range.clone());
+        culler.over(arrays).masks(&mut masks[0]).expect("boxes");
+        culler.over(set).masks(&mut masks[1]).expect("boxes");
+        culler.over(arrays).visible(&mut lists[0]).expect("boxes");
+        culler.over(set).visible(&mut lists[1]).expect("boxes");
         assert!(masks[0] == masks[1] && lists[0] == lists[1]);
         assert!(masks[0].visible().eq(lists[0].iter().map(|&i| i as usize)));
-        for (i, number) in range.enumerate().step_by(97) {
-            let one = culler.classify(all.get(number)).expect("a box");
-            assert_eq!(masks[0].get(i), Some(one), "{:?}", all.get(number));
+        for (i, index) in range.enumerate() {
+            let one = culler.classify(all.get(index)).expect("a box");
+            assert_eq!(masks[0].get(i), Some(one), "{:?}", all.get(index));
         }
     }
     let [masks, masks_of_set] = &mut masks;
@@ -168,22 +165,24 @@ fn boxes_of(name: &str, rounds: usize, culler: &Culler, all: &BoxColumns, piece:
     });
     let masks = timed(count, || {
         for range in all.pieces(piece) {
-            culler.mask_boxes(all.range(range), masks).expect("boxes");
+            let query = culler.over(all.range(range));
+            query.masks(masks).expect("boxes");
         }
     });
     let list = timed(count, || {
         for range in all.pieces(piece) {
-            culler.visible_boxes(all.range(range), list).expect("boxes");
+            let query = culler.over(all.range(range));
+            query.visible(list).expect("boxes");
         }
     });
     let masks_of_set = timed(count, || {
         for set in &sets {
-            culler.mask_boxes(set, masks_of_set).expect("boxes");
+            culler.over(set).masks(masks_of_set).expect("boxes");
         }
     });
     let list_of_set = timed(count, || {
         for set in &sets {
-            culler.visible_boxes(set, list_of_set).expect("boxes");
+            culler.over(set).visible(list_of_set).expect("boxes");
         }
     });
     let passes = vec![
@@ -214,7 +213,7 @@ fn boxes(rounds: usize) {
     }
 }
 
-/// One box a call, exactly, beside separating axes in plain arithmetic.
+/// One box a call, exactly, compared with separating axes in plain arithmetic.
 fn exact(rounds: usize) {
     println!("\nwhether a box meets the frustum, f32: ns (times as fast as the plain loop)");
     for (place, pose) in Mix::poses() {
@@ -235,12 +234,12 @@ fn exact(rounds: usize) {
 fn exact_of(name: &str, rounds: usize, culler: &Culler, all: &[Aabb<f32>]) {
     let axes = &SeparatingAxes::new(culler.frustum());
     let meets = |b: &Aabb<f32>| culler.classify_exact(*b) != Ok(Containment::Outside);
-    // Plain arithmetic may be wrong where they touch.
+    // Plain arithmetic may be wrong where a box touches.
     let differ =
         |rival: &dyn Fn(&Aabb<f32>) -> bool| all.iter().filter(|b| rival(b) != meets(b)).count();
     assert!(differ(&|b| axes.meets(b)) < 9 && differ(&|b| axes.meets_slabs(b)) < 9);
-    let each = |ask: &dyn Fn(&Aabb<f32>) -> bool| {
-        let visible = all.iter().filter(|b| ask(black_box(b))).count();
+    let each = |meets: &dyn Fn(&Aabb<f32>) -> bool| {
+        let visible = all.iter().filter(|b| meets(black_box(b))).count();
         black_box(visible);
     };
     let plain = timed(all.len(), || each(&|b| axes.meets(b)));
@@ -296,12 +295,14 @@ fn threads(rounds: usize) {
 
         let (mut one, mut all): (ContainmentMasks, _) = Default::default();
         let set = &boxes.set(0..count);
-        culler.mask_boxes(set, &mut one).expect("boxes");
-        culler.par_mask_boxes(set, &mut all).expect("boxes");
+        culler.over(set).masks(&mut one).expect("boxes");
+        let query = culler.over(set).parallel();
+        query.masks(&mut all).expect("boxes");
         assert!(one == all && one.visible().count() > count / 100);
-        let by_one = timed(count, || culler.mask_boxes(set, &mut one).expect("boxes"));
+        let by_one = timed(count, || culler.over(set).masks(&mut one).expect("boxes"));
         let by_all = timed(count, || {
-            culler.par_mask_boxes(set, &mut all).expect("boxes")
+            let query = culler.over(set).parallel();
+            query.masks(&mut all).expect("boxes")
         });
         let name = format!("boxes, {place} cache");
         row(&name, rounds, vec![("one", by_one), ("all", by_all)]);
@@ -314,8 +315,8 @@ fn main() {
     let rounds = args.iter().find_map(|arg| arg.parse().ok());
     let rounds = rounds.unwrap_or(10_usize).max(1);
     let parts = ["segments", "boxes", "exact", "threads"];
-    let asked = args.iter().find(|arg| parts.contains(&arg.as_str()));
-    let wanted = |part: &str| asked.is_none_or(|asked| asked == part);
+    let chosen = args.iter().find(|arg| parts.contains(&arg.as_str()));
+    let wanted = |part: &str| chosen.is_none_or(|chosen| chosen == part);
     if wanted("segments") {
         segments_in_cache(rounds);
         segments_out_of_cache(rounds);

@@ -1,7 +1,8 @@
-//! Volumes made of a case's segment, against integers; and batches against one at a time.
+//! Volumes made from a case's segment, compared with integers; and queries over many volumes
+//! compared with one at a time.
 
 use frusta::clip::{SegmentArrays, SegmentIntervals, Segments};
-use frusta::cull::{BoxArrays, BoxSet, Boxes, ContainmentMasks, RelativeBoxes};
+use frusta::cull::{BoxArrays, BoxSet, ContainmentMasks, RelativeBoxes, VolumeSource};
 use frusta::oracle::Oracle;
 use frusta::{
     Aabb, Class, Containment, Culler, Frustum, Obb, Real, Segment, Sphere, Vec3, Volume,
@@ -20,20 +21,19 @@ pub(crate) fn check(frustum: &Frustum, segment: &Segment<f64>) {
     {
         check_volume(&culler, &oracle, volume);
     }
-    let singles = self::boxes(&in_singles(segment));
     check_boxes(&culler, &boxes);
-    check_boxes(&culler, &singles);
+    check_boxes(&culler, &self::boxes(&in_f32(segment)));
     check_relative(&culler, segment.start, &boxes);
     check_segments(&culler, segment);
-    check_segments(&culler, &in_singles(segment));
+    check_segments(&culler, &in_f32(segment));
 }
 
-fn in_singles(segment: &Segment<f64>) -> Segment<f32> {
+fn in_f32(segment: &Segment<f64>) -> Segment<f32> {
     let [a, b] = [segment.start, segment.end].map(Vec3::<f32>::from_f64);
     Segment::new(a, b)
 }
 
-/// What it spans, its ends, and what is none where the segment goes down.
+/// The segment's bounding box, its ends, and at times a box that may be invalid.
 fn boxes<T: Real>(segment: &Segment<T>) -> Vec<Aabb<T>> {
     let Segment { start, end } = *segment;
     let mut all = vec![Aabb::new(start, start), Aabb::new(end, end)];
@@ -44,7 +44,7 @@ fn boxes<T: Real>(segment: &Segment<T>) -> Vec<Aabb<T>> {
     all
 }
 
-/// Balls about one end that reach as far as a coordinate of the other, and boxes along it.
+/// Spheres around one end that reach as far as a coordinate of the other, and boxes along it.
 fn others(segment: &Segment<f64>) -> Vec<Volume> {
     let d = segment.end - segment.start;
     let mut all: Vec<Volume> = [d.x, d.y, d.z]
@@ -62,7 +62,7 @@ fn check_volume(culler: &Culler, oracle: &Oracle, volume: Volume) {
     if let Ok(found) = found {
         let frustum = culler.frustum();
         assert_eq!(found, oracle.classify(&volume), "{volume:?}\n{frustum:?}");
-        let exact = culler.classify_exact(volume).expect("a volume");
+        let exact = culler.classify_exact(volume).expect("a valid volume");
         let meets = oracle.intersects(&volume);
         assert_eq!(
             exact != Containment::Outside,
@@ -73,7 +73,7 @@ fn check_volume(culler: &Culler, oracle: &Oracle, volume: Volume) {
     }
 }
 
-/// Long enough for every place in a register, and for more than a block at times.
+/// Long enough for every lane of a register, and at times for more than a block.
 fn repeated<V: Clone>(some: &[V]) -> Vec<V> {
     let length = if some.len() % 2 == 0 {
         530
@@ -109,45 +109,51 @@ fn check_boxes<T: Real>(culler: &Culler, some: &[Aabb<T>]) {
     };
     let set = BoxSet::new(boxes.iter().copied());
     assert_eq!(set.is_ok(), expected.is_ok());
-    let mut lots = vec![Boxes::from(arrays), Boxes::from(&boxes)];
-    lots.extend(set.iter().map(Boxes::from));
+    check_source(culler, arrays, &expected);
+    check_source(culler, &boxes, &expected);
+    if let Ok(set) = &set {
+        check_source(culler, set, &expected);
+    }
+}
+
+fn check_source<S: VolumeSource + Copy>(
+    culler: &Culler,
+    source: S,
+    expected: &Result<Vec<Containment>, VolumeErrorAt>,
+) {
     let (mut masks, mut list, mut classes) = (ContainmentMasks::default(), vec![], vec![]);
-    for lot in lots {
-        let done = [
-            culler.mask_boxes(lot, &mut masks),
-            culler.visible_boxes(lot, &mut list),
-            culler.classify_boxes(lot, &mut classes),
-        ];
-        match &expected {
-            Err(error) => {
-                let told = done.map(|done| done.map_err(|e| e.index));
-                assert_eq!(told, [Err(error.index); 3]);
-                assert!(masks.is_empty() && list.is_empty() && classes.is_empty());
-            }
-            Ok(expected) => {
-                assert!(done.iter().all(Result::is_ok), "{done:?}");
-                assert_eq!(&classes, expected, "{some:?}\n{:?}", culler.frustum());
-                let told = (0..expected.len()).map(|i| masks.get(i));
-                assert!(told.eq(expected.iter().map(|c| Some(*c))));
-                assert!(masks.visible().eq(list.iter().map(|&i| i as usize)));
-            }
+    let done = [
+        culler.over(source).masks(&mut masks),
+        culler.over(source).visible(&mut list),
+        culler.over(source).classes(&mut classes),
+    ];
+    match expected {
+        Err(error) => {
+            let indices = done.map(|done| done.map_err(|e| e.index));
+            assert_eq!(indices, [Err(error.index); 3]);
+            assert!(masks.is_empty() && list.is_empty() && classes.is_empty());
+        }
+        Ok(expected) => {
+            assert!(done.iter().all(Result::is_ok), "{done:?}");
+            assert_eq!(&classes, expected, "{:?}", culler.frustum());
+            let of_masks = (0..expected.len()).map(|i| masks.get(i));
+            assert!(of_masks.eq(expected.iter().map(|c| Some(*c))));
+            assert!(masks.visible().eq(list.iter().map(|&i| i as usize)));
         }
     }
 }
 
-/// In singles relative to an anchor, which decides nothing.
+/// In `f32` relative to an anchor, which changes no answer.
 fn check_relative(culler: &Culler, anchor: Vec3<f64>, boxes: &[Aabb<f64>]) {
     if let Ok(relative) = RelativeBoxes::new(anchor, &repeated(boxes)) {
-        let mut list = Vec::new();
-        culler.visible_relative(&relative, &mut list);
-        let seen = |b: &Aabb<f64>| culler.classify(*b) != Ok(Containment::Outside);
-        let expected = relative.boxes().iter().enumerate();
-        let expected = expected.filter_map(|(i, b)| seen(b).then_some(i));
-        assert!(expected.eq(list.iter().map(|&i| i as usize)), "{boxes:?}");
+        let expected = relative.boxes().iter().map(|b| culler.classify(*b));
+        let expected = expected.collect::<Result<_, _>>();
+        let expected = expected.map_err(|error| VolumeErrorAt { index: 0, error });
+        check_source(culler, &relative, &expected);
     }
 }
 
-/// Intervals against single clips, to the bit.
+/// Intervals compared with single clips, to the bit.
 fn check_segments<T: Real>(culler: &Culler, segment: &Segment<T>) {
     let Segment { start, end } = *segment;
     let segments = [*segment, Segment::new(end, start), Segment::new(end, end)];
@@ -168,8 +174,8 @@ fn check_segments<T: Real>(culler: &Culler, segment: &Segment<T>) {
         end: ends.each_ref().map(Vec::as_slice),
     };
     let mut intervals = SegmentIntervals::default();
-    for lot in [Segments::from(arrays), Segments::from(&segments)] {
-        let done = culler.clip_intervals(lot, &mut intervals);
+    for layout in [Segments::from(arrays), Segments::from(&segments)] {
+        let done = culler.clip_intervals(layout, &mut intervals);
         let first = segments.iter().position(|s| s.check_finite().is_err());
         assert_eq!(done.as_ref().err().map(|e| e.index), first);
         assert_eq!(
@@ -180,8 +186,8 @@ fn check_segments<T: Real>(culler: &Culler, segment: &Segment<T>) {
             let clip = culler.frustum().clip_segment(segment).expect("finite");
             let part = clip.part.map(|p| (clip.class, p.entry.t, p.exit.t));
             let expected = part.unwrap_or((Class::Outside, T::ONE, T::ZERO));
-            let said = (segment, culler.frustum());
-            assert_eq!(format!("{found:?}"), format!("{expected:?}"), "{said:?}");
+            let case = (segment, culler.frustum());
+            assert_eq!(format!("{found:?}"), format!("{expected:?}"), "{case:?}");
         }
     }
 }

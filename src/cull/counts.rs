@@ -1,4 +1,4 @@
-//! What answers about volumes needed.
+//! How often answers about volumes needed each stage.
 
 use crate::frustum::eval::half_space::Stage;
 use std::iter::Sum;
@@ -6,16 +6,16 @@ use std::ops::{Add, AddAssign};
 
 /// How often each stage of the exact decisions about volumes was needed.
 ///
-/// Sums over volumes add up: with `+`, `+=` and [`Iterator::sum`].
+/// Counts of several volumes add up, with `+`, `+=` and [`Iterator::sum`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(default))]
 pub struct VolumeCounts {
-    /// Volumes of a batch that were asked for one by one: the batch's own arithmetic left
-    /// them open.
-    pub unsettled: u64,
-    /// Signs that the floating-point filter left open, whichever later stage settled
+    /// Volumes of a query over many that its kernel left open, and that were classified one by
+    /// one.
+    pub undecided: u64,
+    /// Signs that the floating-point filter left open, whichever later stage decided
     /// them.
     pub filter_failures: u64,
     /// Signs taken from double-double values.
@@ -24,9 +24,9 @@ pub struct VolumeCounts {
     pub expansions: u64,
     /// Signs taken from big integers.
     pub integers: u64,
-    /// Volumes that no face's plane has outside, of which the exact test was asked.
-    pub asked: u64,
-    /// Those of them that it found to be outside.
+    /// Volumes that are crossing plane by plane, which the exact test was run on.
+    pub exact_tests: u64,
+    /// Those of them that the exact test found to be outside.
     pub false_accepts: u64,
 }
 
@@ -43,12 +43,12 @@ impl VolumeCounts {
 
 impl AddAssign for VolumeCounts {
     fn add_assign(&mut self, other: Self) {
-        self.unsettled += other.unsettled;
+        self.undecided += other.undecided;
         self.filter_failures += other.filter_failures;
         self.double_doubles += other.double_doubles;
         self.expansions += other.expansions;
         self.integers += other.integers;
-        self.asked += other.asked;
+        self.exact_tests += other.exact_tests;
         self.false_accepts += other.false_accepts;
     }
 }

@@ -1,4 +1,4 @@
-//! Plane by plane: the conservative test of a volume, decided exactly.
+//! Face plane by face plane: the conservative test of a volume, decided exactly.
 //!
 //! # Source
 //! Assarsson and Moller, "Optimized view frustum culling algorithms for bounding
@@ -7,32 +7,46 @@
 //!
 //! # Idea
 //! ```text
-//! for each face that is asked for, the last one that rejected first:
+//! for each face in question, the one that rejected last time first:
 //!     greatest value over the volume < 0     outside
 //!     least value over the volume < 0        crossing, and this face is crossed
 //! no face crossed: inside
 //! ```
-//! *Outside* and *inside* are what they say. *Crossing* may be wrong in one way: a
-//! volume beyond an edge or a corner may be apart from the frustum and outside of no
-//! face. What it costs to know is in [`super::separation`].
+//! *Outside* and *inside* are exact. *Crossing* may be wrong in one way: a volume beyond an
+//! edge or a corner may be separate from the frustum although no face plane rejects it. The
+//! test that finds this is in [`super::separation`].
 //!
 //! # Degenerate volumes
-//! A box of no size is a point, flat ones are rectangles and edges; nothing is divided.
+//! A box of zero size is a point, flat boxes are rectangles and edges; nothing is divided.
 
 use super::separation::Separation;
 use super::support::{Extent, with_extent};
 use super::volume::{Volume, VolumeError};
 use super::{Containment, VolumeCounts};
-use crate::frustum::eval::half_space::{HalfSpace, MOST, size, threshold, value};
+use crate::frustum::eval::half_space::{HalfSpace, OFFSET_LIMIT, size, threshold, value};
 use crate::frustum::eval::planes::FacePlanesPair;
 use crate::frustum::{Face, FaceSet, Frustum};
 use crate::math::Vec3;
 use wide::f64x2;
 
-/// A frustum made ready to be asked about volumes.
+/// A frustum that is prepared to classify volumes.
 ///
-/// It answers as the [`Frustum`] that it is made from would, which is a closed set; to
-/// make it takes some ten microseconds.
+/// | volumes | call | answer |
+/// |---|---|---|
+/// | one | [`classify`](Self::classify) | exact plane by plane; *crossing* includes volumes beyond an edge or a corner |
+/// | one, in a tree | [`classify_masked`](Self::classify_masked) | the same, by the faces that its parent crosses |
+/// | one | [`classify_exact`](Self::classify_exact) | exact: *crossing* only where frustum and volume meet |
+/// | many, a draw list | [`over`](Self::over)`(..).visible(..)` | the indices of those that are not outside |
+/// | many | [`over`](Self::over)`(..).classes(..)`, `.masks(..)` | the answer of `classify`, as a class or two bits for each |
+/// | many, on threads | `over(..).parallel()` | the same (feature `parallel`) |
+/// | many segments | [`clip_intervals`](Self::clip_intervals) | class and parameters |
+///
+/// The fastest source of a query is a [`BoxSet`](super::BoxSet), for boxes that are kept from
+/// frame to frame; then [`BoxArrays`](super::BoxArrays); slices are slowest. A query is
+/// several times as fast as a loop over `classify`.
+///
+/// Answers are those for the [`Frustum`] it is made from, a closed set. To make a culler takes
+/// some ten microseconds.
 ///
 /// ```
 /// use frusta::{Aabb, Containment, Culler, EndRect, Frustum, Pose, Shape, Sphere};
@@ -55,60 +69,60 @@ pub struct Culler {
     frustum: Frustum,
     /// The faces' half spaces, in the order of [`Frustum::faces`].
     half_spaces: Box<[HalfSpace]>,
-    /// What is in them, rounded, face by face: all are looked at before the first
-    /// decision.
-    planes: Planes,
-    /// The same for batches.
-    rows: FacePlanesPair,
+    /// The same, rounded: all are evaluated before the first decision.
+    planes: PlanePairs,
+    /// The same for many volumes or segments.
+    face_planes: FacePlanesPair,
     /// For [`Culler::classify_exact`].
-    apart: Separation,
+    separation: Separation,
 }
 
 /// The rounded half spaces, two side by side.
 #[derive(Clone, Debug)]
-pub(super) struct Planes {
-    /// Normals and offsets; where there is no face, one that everything is inside of.
-    numbers: [[f64x2; 4]; 3],
+pub(super) struct PlanePairs {
+    /// Normals and offsets; a missing face is a half space that contains everything.
+    coefficients: [[f64x2; 4]; 3],
     lengths: [f64x2; 3],
     /// The greatest of the thresholds' constant parts.
     constant: f64,
 }
 
-impl Planes {
+impl PlanePairs {
     fn new(half_spaces: &[HalfSpace]) -> Self {
-        let mut numbers = [[0.0, 0.0, 0.0, MOST]; 6];
+        let mut coefficients = [[0.0, 0.0, 0.0, OFFSET_LIMIT]; 6];
         let mut lengths = [0.0; 6];
         let mut constant = 0.0_f64;
         for (i, h) in half_spaces.iter().enumerate().take(6) {
-            numbers[i] = h.rounded();
+            coefficients[i] = h.rounded();
             lengths[i] = h.length();
             constant = constant.max(h.constant());
         }
         let two = |k: usize, of: &dyn Fn(usize) -> f64| f64x2::new([of(2 * k), of(2 * k + 1)]);
         Self {
-            numbers: [0, 1, 2].map(|k| [0, 1, 2, 3].map(|j| two(k, &|i| numbers[i][j]))),
+            coefficients: [0, 1, 2].map(|k| [0, 1, 2, 3].map(|j| two(k, &|i| coefficients[i][j]))),
             lengths: [0, 1, 2].map(|k| two(k, &|i| lengths[i])),
             constant,
         }
     }
 
-    /// Whether a point is certainly inside of all.
+    /// Whether a point is certainly inside of all planes.
     #[inline(always)]
-    pub(super) fn certainly_have(&self, p: Vec3<f64>) -> bool {
-        let mut least = f64x2::splat(MOST);
-        for numbers in self.numbers {
-            least = least.fast_min(value(numbers, p));
+    pub(super) fn certainly_contain(&self, p: Vec3<f64>) -> bool {
+        let mut least = f64x2::splat(OFFSET_LIMIT);
+        for coefficients in self.coefficients {
+            least = least.fast_min(value(coefficients, p));
         }
         lesser(least) > threshold(size(p), self.constant)
     }
 
-    /// What is certain of a volume by rounded values, if it is ordered; nothing then if a number
-    /// is not finite.
+    /// The class of an ordered volume, if rounded values decide it; never if a component is
+    /// not finite.
     #[inline(always)]
-    fn settle<V: Extent>(&self, middle: &V::Middle, size: f64) -> Option<Containment> {
-        let (mut least, mut greatest) = (f64x2::splat(MOST), f64x2::splat(MOST));
-        for (numbers, length) in self.numbers.into_iter().zip(self.lengths) {
-            let [low, high] = V::values(middle, numbers, length);
+    fn classify<V: Extent>(&self, middle: &V::Middle, size: f64) -> Option<Containment> {
+        let mut least = f64x2::splat(OFFSET_LIMIT);
+        let mut greatest = f64x2::splat(OFFSET_LIMIT);
+        for (coefficients, length) in self.coefficients.into_iter().zip(self.lengths) {
+            let [low, high] = V::values(middle, coefficients, length);
             least = least.fast_min(low);
             greatest = greatest.fast_min(high);
         }
@@ -127,20 +141,21 @@ impl Planes {
     }
 }
 
-/// The lesser of two numbers side by side.
+/// The lesser of two values side by side.
 #[inline(always)]
 fn lesser(pair: f64x2) -> f64 {
     let [a, b] = pair.to_array();
     if b < a { b } else { a }
 }
 
-/// How a volume lies to a frustum, and to which of its faces it still has to be held.
+/// The position of a volume relative to a frustum, and the faces that matter to what is in the
+/// volume.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct MaskedContainment {
-    /// As of all faces, if the volume lies inside of those that were not asked for.
+    /// The class by all faces, if the volume is inside of those that were not given.
     pub containment: Containment,
-    /// The faces asked for that the volume is not wholly inside of: what is in it has
-    /// to be held to these alone. All that were asked for if it is outside.
+    /// The given faces that the volume is not wholly inside of: what is in the volume need be
+    /// tested against these alone. All given faces if it is outside.
     pub faces: FaceSet,
 }
 
@@ -151,10 +166,10 @@ impl Culler {
         let half_spaces = HalfSpace::of_faces(frustum);
         Self {
             frustum: frustum.clone(),
-            planes: Planes::new(&half_spaces),
-            rows: FacePlanesPair::new(&half_spaces),
+            planes: PlanePairs::new(&half_spaces),
+            face_planes: FacePlanesPair::new(&half_spaces),
             half_spaces,
-            apart: Separation::default(),
+            separation: Separation::default(),
         }
     }
 
@@ -164,11 +179,11 @@ impl Culler {
         &self.frustum
     }
 
-    pub(super) fn apart(&self) -> &Separation {
-        &self.apart
+    pub(super) fn separation(&self) -> &Separation {
+        &self.separation
     }
 
-    pub(super) fn planes(&self) -> &Planes {
+    pub(super) fn planes(&self) -> &PlanePairs {
         &self.planes
     }
 
@@ -176,28 +191,27 @@ impl Culler {
         &self.half_spaces
     }
 
-    pub(crate) fn rows(&self) -> &FacePlanesPair {
-        &self.rows
+    pub(crate) fn face_planes(&self) -> &FacePlanesPair {
+        &self.face_planes
     }
 
-    /// How a volume lies to the frustum, plane by plane: exactly `Outside` where the
-    /// plane of some face has all of it strictly outside, `Inside` where the frustum
-    /// contains it, else `Crossing`.
+    /// Classifies a volume plane by plane: `Outside` exactly where some face plane has all of
+    /// it strictly outside, `Inside` exactly where the frustum contains it, else `Crossing`.
     ///
-    /// A volume that is `Crossing` may be apart from the frustum, beyond an edge or a
-    /// corner: [`Culler::classify_exact`] knows.
+    /// A volume that is `Crossing` may be separate from the frustum, beyond an edge or a
+    /// corner: [`Culler::classify_exact`] decides that, too.
     ///
     /// # Errors
-    /// What [`Volume::check`] finds.
+    /// Those of [`Volume::check`].
     #[inline]
     pub fn classify(&self, volume: impl Into<Volume>) -> Result<Containment, VolumeError> {
         self.classify_counted(volume, &mut VolumeCounts::default())
     }
 
-    /// As [`Culler::classify`], and adds what it needed to counts.
+    /// As [`Culler::classify`], and adds to `counts` how often each stage was needed.
     ///
     /// # Errors
-    /// What [`Volume::check`] finds.
+    /// Those of [`Volume::check`].
     #[inline]
     pub fn classify_counted(
         &self,
@@ -205,12 +219,12 @@ impl Culler {
         counts: &mut VolumeCounts,
     ) -> Result<Containment, VolumeError> {
         let volume = volume.into();
-        with_extent!(&volume, v => self.settled_or_checked(v, &volume, counts))
+        with_extent!(&volume, v => self.rounded_or_checked(v, &volume, counts))
     }
 
-    /// What is settled needs no other check than that of its order.
+    /// Where rounded values decide, the order of components is all that is left to check.
     #[inline(always)]
-    fn settled_or_checked<V: Extent>(
+    fn rounded_or_checked<V: Extent>(
         &self,
         v: &V,
         volume: &Volume,
@@ -218,7 +232,7 @@ impl Culler {
     ) -> Result<Containment, VolumeError> {
         let middle = v.middle();
         let size = V::size(&middle);
-        match self.planes.settle::<V>(&middle, size) {
+        match self.planes.classify::<V>(&middle, size) {
             Some(class) if v.is_ordered() => Ok(class),
             _ => self.checked(v, volume, counts),
         }
@@ -240,7 +254,7 @@ impl Culler {
     pub(super) fn by_planes<V: Extent>(&self, v: &V, counts: &mut VolumeCounts) -> Containment {
         let middle = v.middle();
         let size = V::size(&middle);
-        match self.planes.settle::<V>(&middle, size) {
+        match self.planes.classify::<V>(&middle, size) {
             Some(class) => class,
             None => self.plane_by_plane(v, &middle, size, counts),
         }
@@ -265,12 +279,12 @@ impl Culler {
         all
     }
 
-    /// The same for trees of volumes: among faces that are still open, with the one
-    /// that rejected this volume last time first.
+    /// Classifies a volume of a tree by some faces, first by the one that rejected this volume
+    /// last time.
     ///
-    /// Start with [`Frustum::faces`]; give what is in a volume the `faces` of its
-    /// answer. `hint` is the volume's own and outlives the frame: it is the face that
-    /// rejects it, where one does. Neither changes an answer.
+    /// Start at the root with [`Frustum::faces`], and give the children of a volume the `faces`
+    /// of its answer. Keep a `hint` for each volume from frame to frame: it is set to the face
+    /// that rejects the volume, if one does. Neither changes an answer.
     ///
     /// ```
     /// use frusta::{Aabb, Containment, Culler, EndRect, Face, FaceSet, Frustum, Pose, Shape};
@@ -284,7 +298,7 @@ impl Culler {
     /// let answer = culler.classify_masked(room, all, &mut hint)?;
     /// assert_eq!(answer.containment, Containment::Crossing);
     /// assert_eq!(answer.faces.to_string(), "far");
-    /// // What is in the room is held to one face.
+    /// // What is in the room is tested against one face.
     /// let lamp = Aabb::new([1.4, -0.1, 3.5], [1.6, 0.1, 3.9]);
     /// let answer = culler.classify_masked(lamp, answer.faces, &mut hint)?;
     /// assert_eq!((answer.containment, hint), (Containment::Outside, Some(Face::Far)));
@@ -292,7 +306,7 @@ impl Culler {
     /// ```
     ///
     /// # Errors
-    /// What [`Volume::check`] finds.
+    /// Those of [`Volume::check`].
     pub fn classify_masked(
         &self,
         volume: impl Into<Volume>,
@@ -301,10 +315,10 @@ impl Culler {
     ) -> Result<MaskedContainment, VolumeError> {
         let volume = volume.into();
         volume.check()?;
-        with_extent!(&volume, v => Ok(self.among(v, faces, hint)))
+        with_extent!(&volume, v => Ok(self.by_some_planes(v, faces, hint)))
     }
 
-    fn among<V: Extent>(
+    fn by_some_planes<V: Extent>(
         &self,
         v: &V,
         faces: FaceSet,

@@ -1,21 +1,43 @@
-//! Bounding volumes against a frustum: outside, crossing or inside, exactly.
+//! Bounding volumes against a frustum: outside, crossing or inside, decided exactly.
 //!
-//! [`Culler`] is a frustum made ready for it. [`Culler::classify`] goes plane by plane;
-//! [`Culler::classify_masked`] does so for trees, with face masks and hints;
-//! [`Culler::classify_exact`] goes on where that only may be wrong.
+//! A program asks it which objects can be visible, by their bounding boxes or spheres, before it
+//! draws them, picks among them or loads them. [`Culler`] is a frustum that is prepared for
+//! this; its page says which call one wants.
+//!
+//! ```
+//! use frusta::cull::{Aabb, Containment, Culler, Sphere};
+//! use frusta::{Camera, Projection};
+//! let camera = Camera {
+//!     eye: [0.0, 0.0, 5.0].into(),
+//!     target: [0.0, 0.0, 0.0].into(),
+//!     up: [0.0, 1.0, 0.0].into(),
+//!     projection: Projection::Perspective { fovy: 1.0, aspect: 1.5 },
+//!     near: 0.1,
+//!     far: 100.0,
+//! };
+//! let culler = Culler::new(&camera.frustum()?);
+//! assert_eq!(culler.classify(Sphere::new([0.0, 0.0, 0.0], 1.0))?, Containment::Inside);
+//! let boxes = [Aabb::new([-1.0_f32; 3], [1.0; 3]), Aabb::new([0.0, 0.0, 6.0], [1.0, 1.0, 7.0])];
+//! let mut visible = Vec::new();
+//! culler.over(&boxes).visible(&mut visible)?;
+//! assert_eq!(visible, [0]);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 //!
 //! ```text
 //! volume      the volumes, and what makes one invalid
 //! support     how far a volume reaches along a normal
 //! culler      one volume, face plane by face plane
 //! separation  the separating axis test, for volumes that no face plane rejects
-//! many        one query for many volumes, in vector registers and by threads
+//! many        one query for many volumes, in vector registers and on threads
+//! segments    intervals of many segments
 //! counts      which stages an answer needed
 //! ```
 
 mod counts;
 mod culler;
 mod many;
+mod segments;
 mod separation;
 mod support;
 mod volume;
@@ -23,7 +45,7 @@ mod volume;
 pub use counts::VolumeCounts;
 pub use culler::{Culler, MaskedContainment};
 pub use many::{
-    BoxArrays, BoxBlocks, BoxSet, Boxes, ContainmentMasks, RelativeBoxes, RelativeError,
-    SphereArrays, Spheres,
+    BoxArrays, BoxSet, ContainmentMasks, RelativeBoxes, RelativeError, SphereArrays, VolumeQuery,
+    VolumeSource,
 };
 pub use volume::{Aabb, Containment, Obb, Sphere, Volume, VolumeError, VolumeErrorAt};

@@ -1,23 +1,23 @@
 //! How far a volume reaches along a half space's normal, rounded and exactly.
 //!
-//! A linear function's extremes over a volume are its value at the middle, more or less
-//! a reach: half extents times magnitudes of the normal's numbers, or half axes' inner
-//! products with the normal, or the radius times its length. Where rounding leaves a
-//! sign open, a box's is that of a corner, which is a point; at which corner is known
-//! from where the normal points, exactly.
+//! A linear function's extremes over a volume are its value at the middle plus and minus a
+//! reach: half extents times magnitudes of the normal's components, or half axes' inner products
+//! with the normal, or the radius times the normal's length. Where rounding leaves a sign open, a
+//! box's extreme is the value at a corner, which is a point; which corner it is follows, exactly,
+//! from the signs of the normal's components.
 //!
 //! # Rounded
-//! In units of u (see [`crate::frustum::eval::half_space`]), S the sum of the magnitudes of the middle's
-//! coordinates, H that of the half extents or of all half axes' coordinates, r the radius,
-//! |n_j| < 1 and so |n| < 1.74:
+//! In units of u (see [`crate::frustum::eval::half_space`]), with S the sum of the magnitudes of
+//! the middle's coordinates, H that of the half extents or of all half axes' coordinates, r the
+//! radius, |n_j| < 1 and so |n| < 1.74:
 //! ```text
-//! middle    4.01 S + 3.01 |d|; of a box 1 S more: it is rounded itself
-//! reach     box 1, the number 1, product 1, sums 2: 5.01 H; oriented box 4.01 H, two
-//!           sums 2 H; ball 3 * 1.74 r
+//! middle    4.01 S + 3.01 |d|; of a box 1 S more, since it is rounded itself
+//! reach     box: extent 1, component 1, product 1, sums 2: 5.01 H; oriented box: 4.01 H,
+//!           two sums 2 H; sphere: 3 * 1.74 r
 //! sum       S + |d| + H, or + 1.74 r
 //! ```
-//! In all no more than 7.01 (S + H) + 4.01 |d|, or 6.96 (S + r) + 4.01 |d|: below the
-//! threshold, 8 of each, at the size S + H, or S + r.
+//! In all no more than 7.01 (S + H) + 4.01 |d|, or 6.96 (S + r) + 4.01 |d|: below the threshold
+//! of 8 each, at the size S + H, or S + r.
 
 use super::volume::{Aabb, Obb, Sphere};
 use super::{Containment, VolumeCounts};
@@ -35,24 +35,24 @@ pub(super) enum Extreme {
     Greatest,
 }
 
-/// A volume that a half space is asked about.
+/// A volume whose extremes along a normal can be computed.
 pub(super) trait Extent {
-    /// What is formed once for all half spaces.
+    /// The form of the volume that is computed once for all half spaces.
     type Middle;
 
-    /// Forms it.
+    /// Computes that form.
     fn middle(&self) -> Self::Middle;
 
-    /// What rounding errors are in proportion to.
+    /// The size that rounding errors are relative to.
     fn size(middle: &Self::Middle) -> f64;
 
-    /// Whether it is a volume if its numbers are finite.
+    /// Whether the volume is valid if its components are finite.
     fn is_ordered(&self) -> bool;
 
-    /// The least and the greatest value of half spaces with these numbers, rounded.
-    fn values<F: Lanes>(middle: &Self::Middle, numbers: [F; 4], length: F) -> [F; 2];
+    /// The least and the greatest value of half spaces with these coefficients, rounded.
+    fn values<F: Lanes>(middle: &Self::Middle, coefficients: [F; 4], length: F) -> [F; 2];
 
-    /// The sign of an extreme value, exactly, where the rounded one leaves it open.
+    /// The exact sign of an extreme value whose rounded value leaves it open.
     fn sign_beyond_filter(
         &self,
         of: &HalfSpace,
@@ -60,7 +60,7 @@ pub(super) trait Extent {
         counts: &mut VolumeCounts,
     ) -> Ordering;
 
-    /// How it lies to the half space.
+    /// The position of the volume relative to the half space.
     #[inline(always)]
     fn side(
         &self,
@@ -80,7 +80,7 @@ pub(super) trait Extent {
         }
     }
 
-    /// Whether all of it is outside of the half space.
+    /// Whether all of the volume is outside the half space.
     fn is_outside(
         &self,
         middle: &Self::Middle,
@@ -92,7 +92,7 @@ pub(super) trait Extent {
         self.is_negative(greatest, of.threshold(size), of, Extreme::Greatest, counts)
     }
 
-    /// Whether an extreme value is negative, of which this is the rounded one.
+    /// Whether an extreme value is negative; `value` is the rounded one.
     #[inline(always)]
     fn is_negative(
         &self,
@@ -112,7 +112,7 @@ pub(super) trait Extent {
     }
 }
 
-/// A middle, and more or less what is around it.
+/// A middle value minus and plus a reach.
 #[inline(always)]
 fn around<F: Lanes>(middle: F, reach: F) -> [F; 2] {
     [middle - reach, middle + reach]
@@ -272,7 +272,7 @@ impl Extent for Sphere<f64> {
     }
 }
 
-/// Runs what is generic over volumes.
+/// Runs code that is generic over [`Extent`].
 macro_rules! with_extent {
     ($volume:expr, $v:ident => $run:expr) => {
         match $volume {

@@ -1,11 +1,11 @@
-//! Bounding volumes: closed sets that stored numbers define exactly.
+//! Bounding volumes: closed sets, defined exactly by the stored values.
 
 use crate::math::{Axis, Real, Short, Vec3};
 use std::fmt;
 
 /// An axis-aligned box: the points `p` with `min <= p <= max` in every coordinate.
 ///
-/// It may be flat, an edge or a point; it is not empty.
+/// A box may be flat, an edge or a point, but not empty.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(
@@ -16,16 +16,16 @@ use std::fmt;
     ))
 )]
 pub struct Aabb<T> {
-    /// The least coordinates.
+    /// The least x, y and z.
     pub min: Vec3<T>,
-    /// The greatest coordinates.
+    /// The greatest x, y and z.
     pub max: Vec3<T>,
 }
 
 /// An oriented box: the points `center + s u + t v + w n` with `s, t, w` in `-1..=1`
 /// and `u, v, n` the half axes.
 ///
-/// These need be neither of one length nor at right angles, and may be zero.
+/// Half axes may have any lengths and angles between them, and may be zero.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(
@@ -36,15 +36,15 @@ pub struct Aabb<T> {
     ))
 )]
 pub struct Obb<T> {
-    /// The middle.
+    /// The center.
     pub center: Vec3<T>,
-    /// From the middle to the middles of three faces.
+    /// The vectors from the center to the centers of three faces.
     pub half_axes: [Vec3<T>; 3],
 }
 
-/// A ball: the points no farther than `radius` from `center`.
+/// A solid sphere: the points no farther than `radius` from `center`.
 ///
-/// It may be a point.
+/// A sphere of radius 0 is a point.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(
@@ -55,47 +55,48 @@ pub struct Obb<T> {
     ))
 )]
 pub struct Sphere<T> {
-    /// The middle.
+    /// The center.
     pub center: Vec3<T>,
-    /// Not negative.
+    /// The radius, not negative.
     pub radius: T,
 }
 
 /// Any bounding volume, in `f64`: `f32` is promoted exactly.
 ///
-/// Made by `From` from [`Aabb`], [`Obb`], [`Sphere`] and, for a point, [`Vec3`].
+/// There is a `From` for [`Aabb`], [`Obb`], [`Sphere`] and, as a point, [`Vec3`].
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum Volume {
     /// An axis-aligned box.
     Aabb(Aabb<f64>),
     /// An oriented box.
     Obb(Obb<f64>),
-    /// A ball.
+    /// A sphere.
     Sphere(Sphere<f64>),
 }
 
-/// How a bounding volume lies to a frustum.
+/// The position of a bounding volume relative to a frustum.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "lowercase"))]
 pub enum Containment {
-    /// They have no point in common.
+    /// The two have no point in common.
     Outside,
-    /// Neither of the others.
+    /// Neither outside nor inside.
     Crossing,
-    /// The frustum contains the volume; that may touch the surface from inside.
+    /// The frustum contains the volume, which may touch its surface from inside.
     Inside,
 }
 
 impl Containment {
-    /// All three.
+    /// All three, in ascending order.
     pub const ALL: [Containment; 3] = [
         Containment::Outside,
         Containment::Crossing,
         Containment::Inside,
     ];
 
-    /// In lower case.
+    /// The name, in lower case.
     pub const fn name(self) -> &'static str {
         ["outside", "crossing", "inside"][self as usize]
     }
@@ -107,24 +108,24 @@ impl fmt::Display for Containment {
     }
 }
 
-/// Why numbers are no bounding volume.
+/// Why a bounding volume is invalid.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum VolumeError {
-    /// A number is infinite or NaN.
+    /// A component is infinite or NaN.
     NonFinite {
-        /// Which number.
+        /// Which component.
         what: &'static str,
         /// The value found.
         value: f64,
     },
-    /// A box's `min` is greater than its `max`: an empty set, which has no place.
+    /// A box's `min` is greater than its `max`: the box is empty.
     Inverted {
-        /// In which coordinate.
+        /// The coordinate.
         axis: Axis,
-        /// The greater number.
+        /// The value of `min`, the greater one.
         min: f64,
-        /// The less one.
+        /// The value of `max`, the lesser one.
         max: f64,
     },
     /// A sphere's radius is negative.
@@ -155,12 +156,12 @@ impl fmt::Display for VolumeError {
 
 impl std::error::Error for VolumeError {}
 
-/// A volume in a slice is none.
+/// The first invalid volume of many.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct VolumeErrorAt {
-    /// Its place in the slice.
+    /// Its index.
     pub index: usize,
-    /// What is wrong with it.
+    /// Why it is invalid.
     pub error: VolumeError,
 }
 
@@ -204,7 +205,7 @@ fn non_finite(names: [&'static str; 3], v: Vec3<f64>) -> Result<(), VolumeError>
 }
 
 impl<T: Real> Aabb<T> {
-    /// From the least and the greatest coordinates.
+    /// Makes a box from its least and its greatest coordinates, unchecked.
     ///
     /// ```
     /// use frusta::Aabb;
@@ -223,8 +224,8 @@ impl<T: Real> Aabb<T> {
         }
     }
 
-    /// The least box that holds these points; `None` without any. A NaN among the
-    /// coordinates may be lost.
+    /// The smallest box that contains these points; `None` if there are none. A coordinate that
+    /// is NaN may be ignored.
     #[must_use]
     pub fn around<P: Into<Vec3<T>>>(points: impl IntoIterator<Item = P>) -> Option<Self> {
         let mut points = points.into_iter().map(Into::into);
@@ -252,10 +253,10 @@ impl<T: Real> Aabb<T> {
         Aabb::new(self.min.to_f64(), self.max.to_f64())
     }
 
-    /// Checks that it is a box.
+    /// Checks that the box is finite and not empty.
     ///
     /// # Errors
-    /// The first number that is infinite or NaN; else the first coordinate in which
+    /// The first component that is infinite or NaN; else the first coordinate in which
     /// `min` is greater than `max`.
     #[inline]
     pub fn check(&self) -> Result<(), VolumeError> {
@@ -278,7 +279,7 @@ impl<T: Real> Aabb<T> {
 }
 
 impl<T: Real> Obb<T> {
-    /// From the middle and the half axes.
+    /// Makes a box from its center and its half axes, unchecked.
     ///
     /// ```
     /// use frusta::Obb;
@@ -304,10 +305,10 @@ impl<T: Real> Obb<T> {
         }
     }
 
-    /// Checks that it is finite.
+    /// Checks that the box is finite.
     ///
     /// # Errors
-    /// The first number that is infinite or NaN.
+    /// The first component that is infinite or NaN.
     pub fn check(&self) -> Result<(), VolumeError> {
         check_finite(CENTER, self.center)?;
         for (names, axis) in HALF_AXES.into_iter().zip(self.half_axes) {
@@ -318,7 +319,7 @@ impl<T: Real> Obb<T> {
 }
 
 impl<T: Real> Sphere<T> {
-    /// From the middle and the radius.
+    /// Makes a sphere from its center and its radius, unchecked.
     ///
     /// ```
     /// use frusta::Sphere;
@@ -335,7 +336,7 @@ impl<T: Real> Sphere<T> {
         }
     }
 
-    /// The same ball in `f64`; always exact.
+    /// The same sphere in `f64`; always exact.
     #[must_use]
     #[inline(always)]
     pub fn to_f64(self) -> Sphere<f64> {
@@ -345,10 +346,10 @@ impl<T: Real> Sphere<T> {
         }
     }
 
-    /// Checks that it is a ball.
+    /// Checks that the sphere is finite and its radius not negative.
     ///
     /// # Errors
-    /// The first number that is infinite or NaN; else a negative radius.
+    /// The first component that is infinite or NaN; else a negative radius.
     pub fn check(&self) -> Result<(), VolumeError> {
         check_finite(CENTER, self.center)?;
         let radius = self.radius.to_f64();
@@ -367,10 +368,10 @@ impl<T: Real> Sphere<T> {
 }
 
 impl Volume {
-    /// Checks that it is one: as [`Aabb::check`], [`Obb::check`], [`Sphere::check`].
+    /// Checks that the volume is valid.
     ///
     /// # Errors
-    /// What is wrong with it.
+    /// Those of [`Aabb::check`], [`Obb::check`] and [`Sphere::check`].
     #[inline]
     pub fn check(&self) -> Result<(), VolumeError> {
         match self {
@@ -402,7 +403,7 @@ impl<T: Real> From<Sphere<T>> for Volume {
     }
 }
 
-/// A point is a box of no size.
+/// A point is a box of zero size.
 impl<T: Real> From<Vec3<T>> for Volume {
     #[inline(always)]
     fn from(p: Vec3<T>) -> Self {
@@ -411,7 +412,7 @@ impl<T: Real> From<Vec3<T>> for Volume {
 }
 
 impl<T: Real> From<Aabb<T>> for Obb<T> {
-    /// The nearest oriented box: middle and half axes are rounded.
+    /// The same box with its center and half axes rounded.
     fn from(v: Aabb<T>) -> Self {
         let half = T::from_f64(0.5);
         let middle = |a: T, b: T| a * half + b * half;

@@ -1,10 +1,10 @@
-//! Every family's hard volumes through the culler, held against the oracle.
+//! The culler's answers about every family's hard volumes, compared with the oracle.
 //!
-//! Boxes in `f64` and `f32`, oriented boxes and balls, at least half of them within 4 ulp of
-//! touching the frustum. Each is classified alone and, boxes and balls, in a batch: both must
-//! be what integers say, plane by plane; and the exact answer what separating axes and distances
-//! in integers say. Blocks that share a frustum are dealt to the threads; counts do not depend
-//! on how many there are.
+//! Boxes in `f64` and `f32`, oriented boxes and spheres, at least half of them within 4 ulp of
+//! touching the frustum. Each is classified alone, boxes and spheres also many at once: both
+//! answers must be the oracle's, plane by plane, and the exact answer must be that of its
+//! separating axes and distances. Blocks that share a frustum are dealt to the threads; tallies do
+//! not depend on the number of threads.
 
 use frusta::cull::{Aabb, Containment, Culler, Sphere, Volume, VolumeCounts};
 use frusta::math::Real;
@@ -24,9 +24,9 @@ pub enum VolumeKind {
     BoxF32,
     /// Oriented boxes in `f64`.
     Obb,
-    /// Balls in `f64`.
+    /// Spheres in `f64`.
     Sphere,
-    /// Balls in `f32`.
+    /// Spheres in `f32`.
     SphereF32,
 }
 
@@ -50,22 +50,22 @@ impl VolumeKind {
     }
 }
 
-/// What was found of one kind, in one family or in all.
+/// The results on one kind, in one family or in all.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct VolumeTally {
-    /// How many volumes were tried.
+    /// Number of volumes.
     pub cases: u64,
-    /// Of these, how many are outside, crossing and inside, plane by plane.
+    /// Number of volumes that are outside, crossing and inside, plane by plane.
     pub classes: [u64; 3],
-    /// Classified otherwise than integers do, alone.
+    /// Number of volumes whose class differs from the oracle's, alone.
     pub wrong: u64,
-    /// Of these, called outside.
+    /// Number of these that are classified as outside.
     pub wrongly_outside: u64,
-    /// Classified otherwise in a batch.
+    /// Number of volumes whose class differs from the oracle's, many at once.
     pub wrong_in_batch: u64,
-    /// Volumes of which the exact answer is wrong.
+    /// Number of volumes whose exact answer is wrong.
     pub wrong_exact: u64,
-    /// What the answers needed.
+    /// How often the answers needed each stage.
     pub counts: VolumeCounts,
 }
 
@@ -97,7 +97,7 @@ pub struct VolumeRow {
     pub family: Family,
     /// The kind.
     pub kind: VolumeKind,
-    /// What was found.
+    /// The results.
     pub tally: VolumeTally,
 }
 
@@ -191,10 +191,10 @@ pub fn verify_volumes(
                 break;
             }
             let scene = family.scene(seed, block);
-            let numbers = block * BLOCK..((block + 1) * BLOCK).min(cases);
+            let indices = block * BLOCK..((block + 1) * BLOCK).min(cases);
             let bench = Bench::new(&scene, seed);
             for (i, kind) in kinds.clone().enumerate() {
-                let tally = bench.tally(kind, numbers.clone());
+                let tally = bench.tally(kind, indices.clone());
                 on_cases(tally.cases);
                 let mut rows = rows.lock().unwrap_or_else(|e| e.into_inner());
                 rows[i].tally += tally;
@@ -210,7 +210,7 @@ pub fn verify_volumes(
     rows.into_inner().unwrap_or_else(|e| e.into_inner())
 }
 
-/// A scene, and who answers.
+/// A scene, the culler that is tested and the oracle.
 struct Bench<'a> {
     scene: &'a Scene,
     seed: u64,
@@ -228,71 +228,75 @@ impl<'a> Bench<'a> {
         }
     }
 
-    fn tally(&self, kind: VolumeKind, numbers: std::ops::Range<u64>) -> VolumeTally {
+    fn tally(&self, kind: VolumeKind, indices: std::ops::Range<u64>) -> VolumeTally {
         let (scene, seed) = (self.scene, self.seed);
         match kind {
-            VolumeKind::Box => self.boxes(numbers.map(|n| hard_box::<f64>(scene, seed, n))),
-            VolumeKind::BoxF32 => self.boxes(numbers.map(|n| hard_box::<f32>(scene, seed, n))),
+            VolumeKind::Box => self.boxes(indices.map(|n| hard_box::<f64>(scene, seed, n))),
+            VolumeKind::BoxF32 => self.boxes(indices.map(|n| hard_box::<f32>(scene, seed, n))),
             VolumeKind::Obb => {
                 let mut tally = VolumeTally::default();
-                for n in numbers {
+                for n in indices {
                     self.alone(hard_obb::<f64>(scene, seed, n).into(), &mut tally);
                 }
                 tally
             }
-            VolumeKind::Sphere => self.balls(numbers.map(|n| hard_sphere::<f64>(scene, seed, n))),
+            VolumeKind::Sphere => self.spheres(indices.map(|n| hard_sphere::<f64>(scene, seed, n))),
             VolumeKind::SphereF32 => {
-                self.balls(numbers.map(|n| hard_sphere::<f32>(scene, seed, n)))
+                self.spheres(indices.map(|n| hard_sphere::<f32>(scene, seed, n)))
             }
         }
     }
 
-    /// The truth, plane by plane, with which the answer for one volume is compared.
+    /// Compares the answer about one volume with the truth, plane by plane, which is returned.
     fn alone(&self, volume: Volume, tally: &mut VolumeTally) -> Containment {
         let truth = self.oracle.classify(&volume);
-        let said = self.culler.classify_counted(volume, &mut tally.counts);
+        let found = self.culler.classify_counted(volume, &mut tally.counts);
         tally.cases += 1;
         tally.classes[truth as usize] += 1;
-        tally.wrong += u64::from(said != Ok(truth));
-        let is_outside = said == Ok(Containment::Outside);
+        tally.wrong += u64::from(found != Ok(truth));
+        let is_outside = found == Ok(Containment::Outside);
         tally.wrongly_outside += u64::from(is_outside && truth != Containment::Outside);
         self.exactly(volume, truth, tally);
         truth
     }
 
-    /// The exact test, of what lies so plane by plane.
+    /// Compares the exact answer about a volume with this class plane by plane.
     fn exactly(&self, volume: Volume, by_planes: Containment, tally: &mut VolumeTally) {
         let truth = match by_planes {
             Containment::Crossing if !self.oracle.intersects(&volume) => Containment::Outside,
             class => class,
         };
         let mut counts = VolumeCounts::default();
-        let said = self.culler.classify_exact_counted(volume, &mut counts);
-        tally.wrong_exact += u64::from(said != Ok(truth));
-        tally.counts.asked += counts.asked;
+        let found = self.culler.classify_exact_counted(volume, &mut counts);
+        tally.wrong_exact += u64::from(found != Ok(truth));
+        tally.counts.exact_tests += counts.exact_tests;
         tally.counts.false_accepts += counts.false_accepts;
     }
 
     fn boxes<T: Real>(&self, boxes: impl Iterator<Item = Aabb<T>>) -> VolumeTally {
-        let mut tally = VolumeTally::default();
         let (boxes, mut classes) = (boxes.collect::<Vec<_>>(), Vec::new());
-        let batch = self.culler.classify_boxes(&boxes, &mut classes);
-        for (i, &volume) in boxes.iter().enumerate() {
-            let truth = self.alone(volume.into(), &mut tally);
-            let in_batch = classes.get(i).filter(|_| batch.is_ok());
-            tally.wrong_in_batch += u64::from(in_batch != Some(&truth));
-        }
-        tally
+        let done = self.culler.over(&boxes).classes(&mut classes);
+        self.together(&boxes, &classes, done.is_ok())
     }
 
-    fn balls<T: Real>(&self, balls: impl Iterator<Item = Sphere<T>>) -> VolumeTally {
+    fn spheres<T: Real>(&self, spheres: impl Iterator<Item = Sphere<T>>) -> VolumeTally {
+        let (spheres, mut classes) = (spheres.collect::<Vec<_>>(), Vec::new());
+        let done = self.culler.over(&spheres).classes(&mut classes);
+        self.together(&spheres, &classes, done.is_ok())
+    }
+
+    /// Compares each volume alone, and its class of a query over all.
+    fn together<V: Copy + Into<Volume>>(
+        &self,
+        volumes: &[V],
+        classes: &[Containment],
+        is_done: bool,
+    ) -> VolumeTally {
         let mut tally = VolumeTally::default();
-        let (balls, mut classes) = (balls.collect::<Vec<_>>(), Vec::new());
-        let batch = self.culler.classify_spheres(&balls, &mut classes);
-        for (i, &volume) in balls.iter().enumerate() {
+        for (i, &volume) in volumes.iter().enumerate() {
             let truth = self.alone(volume.into(), &mut tally);
-            let in_batch = classes.get(i).filter(|_| batch.is_ok());
-            tally.wrong_in_batch += u64::from(in_batch != Some(&truth));
+            let class = classes.get(i).filter(|_| is_done);
+            tally.wrong_in_batch += u64::from(class != Some(&truth));
         }
         tally
     }

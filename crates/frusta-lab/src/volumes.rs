@@ -1,43 +1,43 @@
-//! Boxes, balls and batches: errors, false accepts, run times.
+//! Boxes and spheres, one by one and many at once: errors, false accepts, run times.
 //!
 //! # Errors
-//! Hard volumes of every family, in the culler's answers and in batches, against integers:
-//! [`verify_volumes`].
+//! The culler's answers about hard volumes of every family, one by one and many at once, are
+//! compared with integers: [`verify_volumes`].
 //!
 //! # False accepts
-//! A test face by face says too often that a box crosses: one beyond an edge is outside of no
-//! face. Boxes of up to a size, in and about a turned camera's frustum; how many of those that the
-//! faces let pass the exact test takes out. Shares depend on where boxes are put: here
-//! evenly where a box of that size can touch the frustum's bounding box.
+//! A test plane by plane accepts boxes that are beyond an edge or a corner: no face plane rejects
+//! them. Boxes of up to a size, in and around a turned camera's frustum, are tested plane by plane
+//! and exactly; the share is that of the accepted boxes that the exact test rejects. It depends on
+//! the distribution of boxes: here even where a box of that size can touch the frustum's bounding
+//! box.
 //!
 //! # Times
-//! The same everyday boxes, balls and segments, one a call and in batches of
-//! [`VolumeSurvey::PIECE`], in [turns](super::turns).
+//! The same everyday boxes, spheres and segments, one a call and [`VolumeSurvey::PIECE`] a call, in
+//! [turns](super::turns).
 
 use super::turns::{Timing, Turns};
 use super::verify_volumes::{VolumeKind, VolumeTally, verify_volumes};
 use frusta::clip::{SegmentArrays, SegmentIntervals};
 use frusta::cull::{Aabb, Containment, Culler, Obb, Sphere};
-use frusta::cull::{BoxArrays, BoxSet, ContainmentMasks};
-use frusta::cull::{SphereArrays, Spheres};
+use frusta::cull::{BoxArrays, BoxSet, ContainmentMasks, SphereArrays};
 use frusta::frustum::{Camera, FarCorners, Frustum, Projection};
 use frusta::math::{Pose, Segment, Vec3};
 use frusta::samples::{Family, Mix, Random};
 use std::hint::black_box;
 use std::time::Instant;
 
-/// What was found on volumes.
+/// The results on volumes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct VolumeSurvey {
     /// Sums over families, a row a kind.
     pub errors: Vec<(VolumeKind, VolumeTally)>,
     /// By size and field of view.
     pub accepts: Vec<FalseAccepts>,
-    /// Run times, a row a function; each job's first is what the others are compared with.
+    /// Run times, a row a function; the others of a job are compared with its first.
     pub times: Vec<VolumeTime>,
-    /// How many of each kind were timed.
+    /// Number of volumes of each kind that were timed.
     pub timed: usize,
-    /// In how many rounds.
+    /// Number of rounds.
     pub rounds: u32,
 }
 
@@ -84,23 +84,23 @@ const VIEWS: [(f64, f64); 6] = [
     (0.5, 0.1),
 ];
 
-/// What the exact test takes out of what faces let pass.
+/// Boxes that no face plane rejects, and those of them that the exact test rejects.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FalseAccepts {
     /// Half extents are up to this part of the far distance.
     pub size: f64,
     /// The angle of view, upwards and across, in radians.
     pub field_of_view: f64,
-    /// How many boxes were tried.
+    /// Number of boxes.
     pub boxes: u64,
-    /// How many no face rejects.
+    /// Number of boxes that no face plane rejects.
     pub accepted: u64,
-    /// How many of these are apart from the frustum.
+    /// Number of these that are separate from the frustum.
     pub falsely: u64,
 }
 
 impl FalseAccepts {
-    /// Of what is accepted.
+    /// The share of false accepts in what is accepted.
     pub fn share(&self) -> f64 {
         self.falsely as f64 / self.accepted.max(1) as f64
     }
@@ -109,16 +109,16 @@ impl FalseAccepts {
 /// A function's time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct VolumeTime {
-    /// What is asked: `box`, `sphere` or `segment`, all in `f32`.
+    /// The kind of volume, all in `f32`: `box`, `oriented box`, `sphere` or `segment`.
     pub job: &'static str,
-    /// By what function, of what layout.
+    /// The function and, of many, the source.
     pub function: &'static str,
-    /// The time for one; the ratio is to the job's first function.
+    /// The time a volume; the ratio is to the job's first function.
     pub timing: Timing,
 }
 
 impl VolumeSurvey {
-    /// How many are asked about with one call, in batches.
+    /// Number of volumes a call, in queries over many.
     pub const PIECE: usize = 4096;
 
     /// Whether every answer is right.
@@ -143,7 +143,7 @@ impl VolumeSurvey {
 /// };
 /// let found = volumes(&plan, &|_| {});
 /// assert!(found.is_right());
-/// // Of large boxes before a narrow view a quarter and more are accepted falsely.
+/// // More than a fifth of large boxes in a narrow view are accepted falsely.
 /// assert!(found.accepts.last().unwrap().share() > 0.2);
 /// ```
 pub fn volumes(plan: &VolumePlan, on_step: &(dyn Fn(u64) + Sync)) -> VolumeSurvey {
@@ -215,8 +215,8 @@ fn false_accepts(size: f64, field_of_view: f64, plan: &VolumePlan) -> Option<Fal
         let volume = any_box(&mut random, bounds, size * FAR);
         if culler.classify(volume) != Ok(Containment::Outside) {
             accepted += 1;
-            let is_apart = culler.classify_exact(volume) == Ok(Containment::Outside);
-            falsely += u64::from(is_apart);
+            let is_separate = culler.classify_exact(volume) == Ok(Containment::Outside);
+            falsely += u64::from(is_separate);
         }
     }
     Some(FalseAccepts {
@@ -244,14 +244,14 @@ struct Scene {
 fn columns<V, const K: usize>(all: &[V], of: impl Fn(&V) -> [f32; K]) -> [Vec<f32>; K] {
     let mut columns = [const { Vec::new() }; K];
     for one in all {
-        for (column, number) in columns.iter_mut().zip(of(one)) {
-            column.push(number);
+        for (column, component) in columns.iter_mut().zip(of(one)) {
+            column.push(component);
         }
     }
     columns
 }
 
-fn numbers(a: Vec3<f32>, b: Vec3<f32>) -> [f32; 6] {
+fn components(a: Vec3<f32>, b: Vec3<f32>) -> [f32; 6] {
     [a.x, a.y, a.z, b.x, b.y, b.z]
 }
 
@@ -269,8 +269,8 @@ impl Scene {
             )
         };
         let boxes: Vec<Aabb<f32>> = (0..plan.timed).map(|_| single()).collect();
-        let ball = |b: &Aabb<f32>| Sphere::new(b.min, b.max.x - b.min.x);
-        let spheres: Vec<Sphere<f32>> = boxes.iter().map(ball).collect();
+        let sphere = |b: &Aabb<f32>| Sphere::new(b.min, b.max.x - b.min.x);
+        let spheres: Vec<Sphere<f32>> = boxes.iter().map(sphere).collect();
         // Turned about two axes.
         let turned = |v: Vec3<f32>| {
             let v = Vec3::new(0.8 * v.x - 0.6 * v.y, 0.6 * v.x + 0.8 * v.y, v.z);
@@ -284,13 +284,13 @@ impl Scene {
         let sets = boxes.chunks(VolumeSurvey::PIECE);
         Some(Self {
             culler: Culler::new(&frustum),
-            box_columns: columns(&boxes, |b| numbers(b.min, b.max)),
+            box_columns: columns(&boxes, |b| components(b.min, b.max)),
             sets: sets
                 .map(|some| BoxSet::new(some.iter().copied()))
                 .collect::<Result<_, _>>()
                 .ok()?,
             sphere_columns: columns(&spheres, |s| [s.center.x, s.center.y, s.center.z, s.radius]),
-            segment_columns: columns(&segments, |s| numbers(s.start, s.end)),
+            segment_columns: columns(&segments, |s| components(s.start, s.end)),
             oriented: oriented.collect(),
             boxes,
             spheres,
@@ -313,10 +313,10 @@ struct Buffers {
     intervals: SegmentIntervals<f32>,
 }
 
-/// A job, what a function is called, and how all are asked about.
+/// A job, the name of a function, and a run of it over all volumes.
 type Timed = (&'static str, &'static str, fn(&Scene, &mut Buffers));
 
-/// Errors are none: the volumes are such.
+/// Results are ignored: all volumes are valid.
 const TIMED: [Timed; 13] = [
     ("box", "classify", |scene, _| {
         for volume in &scene.boxes {
@@ -328,23 +328,22 @@ const TIMED: [Timed; 13] = [
             let _ = black_box(scene.culler.classify_exact(*volume));
         }
     }),
-    ("box", "mask_boxes, arrays", |scene, to| {
+    ("box", "masks of arrays", |scene, to| {
         for range in scene.pieces() {
             let [a, b, c, d, e, f] = scene.box_columns.each_ref().map(|v| &v[range.clone()]);
             let (min, max) = ([a, b, c], [d, e, f]);
-            let _ = scene
-                .culler
-                .mask_boxes(BoxArrays { min, max }, &mut to.masks);
+            let query = scene.culler.over(BoxArrays { min, max });
+            let _ = query.masks(&mut to.masks);
         }
     }),
-    ("box", "mask_boxes, a set", |scene, to| {
+    ("box", "masks of a set", |scene, to| {
         for set in &scene.sets {
-            let _ = scene.culler.mask_boxes(set, &mut to.masks);
+            let _ = scene.culler.over(set).masks(&mut to.masks);
         }
     }),
-    ("box", "visible_boxes, a set", |scene, to| {
+    ("box", "visible in a set", |scene, to| {
         for set in &scene.sets {
-            let _ = scene.culler.visible_boxes(set, &mut to.list);
+            let _ = scene.culler.over(set).visible(&mut to.list);
         }
     }),
     ("oriented box", "classify", |scene, _| {
@@ -367,12 +366,12 @@ const TIMED: [Timed; 13] = [
             let _ = black_box(scene.culler.classify_exact(*volume));
         }
     }),
-    ("sphere", "mask_spheres, arrays", |scene, to| {
+    ("sphere", "masks of arrays", |scene, to| {
         for range in scene.pieces() {
             let [a, b, c, radius] = scene.sphere_columns.each_ref().map(|v| &v[range.clone()]);
             let center = [a, b, c];
-            let lot = Spheres::from(SphereArrays { center, radius });
-            let _ = scene.culler.mask_spheres(lot, &mut to.masks);
+            let query = scene.culler.over(SphereArrays { center, radius });
+            let _ = query.masks(&mut to.masks);
         }
     }),
     ("segment", "clip_segment", |scene, _| {
@@ -389,8 +388,8 @@ const TIMED: [Timed; 13] = [
         for range in scene.pieces() {
             let [a, b, c, d, e, f] = scene.segment_columns.each_ref().map(|v| &v[range.clone()]);
             let (start, end) = ([a, b, c], [d, e, f]);
-            let lot = SegmentArrays { start, end };
-            let _ = scene.culler.clip_intervals(lot, &mut to.intervals);
+            let arrays = SegmentArrays { start, end };
+            let _ = scene.culler.clip_intervals(arrays, &mut to.intervals);
         }
     }),
 ];

@@ -6,7 +6,7 @@ use std::fmt;
 
 impl fmt::Display for VolumeSurvey {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        writeln!(f, "Boxes, balls and batches\n")?;
+        writeln!(f, "Boxes and spheres, one by one and many at once\n")?;
         writeln!(
             f,
             "{:<12} {:>10} {:>8} {:>8} {:>8} {:>8}   hard cases of all families",
@@ -59,10 +59,10 @@ impl fmt::Display for VolumeSurvey {
 }
 
 const LEGEND: &str = "
-wrong, outside  classes that are wrong; of these, called outside
-batch, exact    wrong classes in batches; wrong answers of the exact test
-falsely         apart from the frustum, which the exact test finds
-times as fast   as one a call by the first function
+wrong, outside  wrong classes, one a call; those of them that are outside
+batch, exact    wrong classes, many a call; wrong answers of the exact test
+falsely         separate from the frustum, as the exact test finds
+times as fast   as the first function, one a call
 ";
 
 #[cfg(test)]

@@ -1,5 +1,5 @@
-//! Volumes on every family of hard cases, held against the oracle; metamorphic tests; and
-//! inputs that are no volumes.
+//! Volumes of every family of hard cases, compared with the oracle; metamorphic tests; invalid
+//! volumes.
 use frusta::oracle::Oracle;
 use frusta::samples::{BLOCK, Family, Scene, hard_box, hard_obb, hard_sphere};
 use frusta::{
@@ -38,7 +38,7 @@ fn every_family_is_classified_as_integers_do() {
     }
 }
 
-/// A frustum and all that it is asked about, moved by `map` of coordinates that is exact.
+/// The culler of a frustum's shape in another pose.
 fn mapped(frustum: &Frustum, pose: Pose) -> Culler {
     Culler::new(&Frustum::new(pose, *frustum.shape()).expect("a frustum"))
 }
@@ -62,8 +62,8 @@ fn scaling_and_mirroring_change_nothing() {
             let k = 1024.0;
             let axes = pose.axes.map(|a| a * (1.0 / k));
             let scaled = mapped(frustum, Pose::new(pose.origin * k, axes));
-            for number in block * BLOCK..(block + 1) * BLOCK {
-                let v = hard_box::<f64>(&scene, 5, number);
+            for index in block * BLOCK..(block + 1) * BLOCK {
+                let v = hard_box::<f64>(&scene, 5, index);
                 let expected = culler.classify_exact(v);
                 let flipped = Aabb::new([-v.max.x, v.min.y, v.min.z], [-v.min.x, v.max.y, v.max.z]);
                 assert_eq!(
@@ -73,14 +73,14 @@ fn scaling_and_mirroring_change_nothing() {
                 );
                 let large = Aabb::new(v.min * k, v.max * k);
                 assert_eq!(scaled.classify_exact(large), expected, "{family}: {v:?}");
-                let v = hard_sphere::<f64>(&scene, 5, number);
+                let v = hard_sphere::<f64>(&scene, 5, index);
                 let large = Sphere::new(v.center * k, v.radius * k);
                 assert_eq!(scaled.classify(large), culler.classify(v));
                 assert_eq!(scaled.classify_exact(large), culler.classify_exact(v));
                 let flipped = Sphere::new(flip(v.center), v.radius);
                 assert_eq!(mirrored.classify(flipped), culler.classify(v));
                 assert_eq!(mirrored.classify_exact(flipped), culler.classify_exact(v));
-                let v = hard_obb::<f64>(&scene, 5, number);
+                let v = hard_obb::<f64>(&scene, 5, index);
                 let expected = culler.classify_exact(v);
                 let large = Obb::new(v.center * k, v.half_axes.map(|h| h * k));
                 assert_eq!(scaled.classify_exact(large), expected, "{family}: {v:?}");
@@ -98,7 +98,7 @@ fn scaling_and_mirroring_change_nothing() {
     }
 }
 
-/// What doubles settle, and what they leave to integers, both ways, of every kind.
+/// Answers decided in `f64` and in integers, both ways, for every kind of volume.
 #[test]
 fn the_exact_test_reaches_every_stage() {
     let kinds: [fn(&Scene, u64) -> Volume; 3] = [
@@ -112,12 +112,12 @@ fn the_exact_test_reaches_every_stage() {
             for block in 0..3 {
                 let scene = family.scene(9, block);
                 let culler = Culler::new(scene.frustum());
-                for number in block * BLOCK..(block + 1) * BLOCK {
-                    let volume = volume(&scene, number);
+                for index in block * BLOCK..(block + 1) * BLOCK {
+                    let volume = volume(&scene, index);
                     let (mut by_planes, mut all) = <[VolumeCounts; 2]>::default().into();
                     let _ = culler.classify_counted(volume, &mut by_planes);
                     let _ = culler.classify_exact_counted(volume, &mut all);
-                    if all.asked == 1 {
+                    if all.exact_tests == 1 {
                         let by_integers = all.filter_failures > by_planes.filter_failures;
                         found[usize::from(by_integers)][all.false_accepts as usize] += 1;
                     }
@@ -131,14 +131,14 @@ fn the_exact_test_reaches_every_stage() {
     }
 }
 
-/// A box along the axes is an oriented box, and a ball or a box of no size a point.
+/// An axis-aligned box is an oriented box, and a sphere or a box of zero size is a point.
 #[test]
 fn the_same_set_has_the_same_exact_answer() {
     for &family in Family::ALL {
         let scene = family.scene(4, 1);
         let culler = Culler::new(scene.frustum());
-        for number in 0..BLOCK {
-            let v = hard_box::<f64>(&scene, 4, number);
+        for index in 0..BLOCK {
+            let v = hard_box::<f64>(&scene, 4, index);
             let oriented = Obb::from(v);
             let Obb {
                 center: c,
@@ -152,7 +152,7 @@ fn the_same_set_has_the_same_exact_answer() {
                 let expected = culler.classify_exact(v);
                 assert_eq!(culler.classify_exact(oriented), expected, "{family}: {v:?}");
             }
-            let at = hard_sphere::<f64>(&scene, 4, number).center;
+            let at = hard_sphere::<f64>(&scene, 4, index).center;
             let expected = culler.classify_exact(at);
             assert_eq!(culler.classify_exact(Sphere::new(at, 0.0)), expected);
             assert_eq!(culler.classify_exact(Obb::new(at, [[0.0; 3]; 3])), expected);
@@ -160,7 +160,7 @@ fn the_same_set_has_the_same_exact_answer() {
     }
 }
 
-/// A hierarchy's answers with masks are those without, and what a mask leaves out is inside.
+/// Masks and hints of a hierarchy change no answer.
 #[test]
 fn masks_and_hints_change_nothing() {
     for &family in Family::ALL {
@@ -168,31 +168,31 @@ fn masks_and_hints_change_nothing() {
         let culler = Culler::new(scene.frustum());
         let all: FaceSet = scene.frustum().faces().iter().copied().collect();
         let mut hints = [None, Some(Face::Near), Some(Face::Top), Some(Face::Far)];
-        for number in 0..BLOCK {
-            let parent = hard_box::<f64>(&scene, 6, number);
+        for index in 0..BLOCK {
+            let parent = hard_box::<f64>(&scene, 6, index);
             let volumes: [Volume; 3] = [
                 parent.into(),
-                hard_obb::<f64>(&scene, 6, number).into(),
-                hard_sphere::<f64>(&scene, 6, number).into(),
+                hard_obb::<f64>(&scene, 6, index).into(),
+                hard_sphere::<f64>(&scene, 6, index).into(),
             ];
             for volume in volumes {
                 let expected = culler.classify(volume).unwrap();
                 for hint in &mut hints {
-                    let among = culler.classify_masked(volume, all, hint).unwrap();
-                    assert_eq!(among.containment, expected, "{family}: {volume:?}");
+                    let masked = culler.classify_masked(volume, all, hint).unwrap();
+                    assert_eq!(masked.containment, expected, "{family}: {volume:?}");
                     let is_open = expected == Containment::Crossing;
-                    assert_eq!(among.faces.is_empty(), expected == Containment::Inside);
-                    assert!(!is_open || !among.faces.is_empty());
+                    assert_eq!(masked.faces.is_empty(), expected == Containment::Inside);
+                    assert!(!is_open || !masked.faces.is_empty());
                 }
             }
-            // A part of the box, among the faces that are open for the box.
-            let among = culler.classify_masked(parent, all, &mut None).unwrap();
+            // A part of the box, by the faces that the box crosses.
+            let masked = culler.classify_masked(parent, all, &mut None).unwrap();
             let part = Aabb::new(
                 parent.min,
                 Vec3::new(parent.max.x, parent.min.y, parent.max.z),
             );
             let within = culler
-                .classify_masked(part, among.faces, &mut None)
+                .classify_masked(part, masked.faces, &mut None)
                 .unwrap();
             assert_eq!(
                 Ok(within.containment),
@@ -209,8 +209,8 @@ fn kinds_agree() {
     for family in [Family::HalfLattice, Family::Infinite, Family::ApexWidth] {
         let scene = family.scene(8, 1);
         let culler = Culler::new(scene.frustum());
-        for number in BLOCK..2 * BLOCK {
-            let v = hard_box::<f32>(&scene, 8, number);
+        for index in BLOCK..2 * BLOCK {
+            let v = hard_box::<f32>(&scene, 8, index);
             let wide = v.to_f64();
             let half = (wide.max - wide.min) * 0.5;
             let zero = Vec3::new(0.0, 0.0, 0.0);
@@ -236,16 +236,16 @@ fn kinds_agree() {
 }
 
 #[test]
-fn what_is_no_volume_is_refused() {
+fn invalid_volumes_are_rejected() {
     let near = frusta::EndRect::new(1.0, -1.0, 1.0, -1.0, 1.0);
     let far = frusta::EndRect::new(3.0, -3.0, 3.0, -3.0, 3.0);
     let frustum = Frustum::new(Pose::IDENTITY, Shape::Finite { near, far }).unwrap();
     let culler = Culler::new(&frustum);
     for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
-        let mut numbers = [0.0, 0.0, 2.0, 1.0, 1.0, 2.5];
+        let mut components = [0.0, 0.0, 2.0, 1.0, 1.0, 2.5];
         for i in 0..6 {
-            let good = std::mem::replace(&mut numbers[i], bad);
-            let [a, b, c, d, e, f] = numbers;
+            let good = std::mem::replace(&mut components[i], bad);
+            let [a, b, c, d, e, f] = components;
             let volume = Aabb::new([a, b, c], [d, e, f]);
             let name = ["min.x", "min.y", "min.z", "max.x", "max.y", "max.z"][i];
             for error in [
@@ -257,11 +257,11 @@ fn what_is_no_volume_is_refused() {
             ] {
                 assert!(matches!(error, VolumeError::NonFinite { what, .. } if what == name));
             }
-            let ball = Sphere::new([a, b, c], d);
-            assert_eq!(culler.classify(ball).is_err(), i < 4);
+            let sphere = Sphere::new([a, b, c], d);
+            assert_eq!(culler.classify(sphere).is_err(), i < 4);
             let turned = Obb::new([a, b, c], [[d, e, f], [0.0; 3], [f, e, d]]);
             assert!(culler.classify(turned).is_err());
-            numbers[i] = good;
+            components[i] = good;
         }
     }
     let inverted = culler
@@ -276,7 +276,7 @@ fn what_is_no_volume_is_refused() {
         .classify(Sphere::new([0.0_f32; 3], -1.0))
         .unwrap_err();
     assert_eq!(negative.to_string(), "radius = -1; it must not be negative");
-    // The largest and the least numbers are no reason to refuse.
+    // The largest and the least values are valid.
     let all = Aabb::new([-f64::MAX; 3], [f64::MAX; 3]);
     assert_eq!(culler.classify_exact(all), Ok(Containment::Crossing));
     let tiny = Aabb::new([0.0, 0.0, 2.0], [5e-324, 5e-324, 2.0]);
@@ -285,9 +285,9 @@ fn what_is_no_volume_is_refused() {
     assert_eq!(culler.classify(huge), Ok(Containment::Crossing));
 }
 
-/// Wherever it would lie, and however little it is inverted.
+/// Wherever the box is, and however little it is inverted.
 #[test]
-fn a_box_inverted_in_one_coordinate_is_refused() {
+fn a_box_inverted_in_one_coordinate_is_rejected() {
     let near = frusta::EndRect::new(1.0, -1.0, 1.0, -1.0, 1.0);
     let far = frusta::EndRect::new(3.0, -3.0, 3.0, -3.0, 3.0);
     let frustum = Frustum::new(Pose::IDENTITY, Shape::Finite { near, far }).unwrap();
@@ -323,8 +323,8 @@ fn a_box_inverted_in_one_coordinate_is_refused() {
     }
 }
 
-/// Numbers without a pattern, always the same, in -1..1.
-fn numbers() -> impl FnMut() -> f64 {
+/// Values without a pattern, always the same, in -1..1.
+fn values() -> impl FnMut() -> f64 {
     let mut state = 88_172_645_463_325_252_u64;
     move || {
         state ^= state << 13;
@@ -334,20 +334,20 @@ fn numbers() -> impl FnMut() -> f64 {
     }
 }
 
-/// The exact answer is the oracle's; whether it is that they are apart.
+/// Compares the exact answer with the oracle's; whether it is a false accept of `classify`.
 fn check_exact(culler: &Culler, oracle: &Oracle, volume: Volume) -> bool {
     let found = culler.classify_exact(volume).expect("a volume");
     let meets = oracle.intersects(&volume);
-    let said = (found, volume, culler.frustum());
-    assert_eq!(found != Containment::Outside, meets, "{said:?}");
+    let case = (found, volume, culler.frustum());
+    assert_eq!(found != Containment::Outside, meets, "{case:?}");
     !meets && culler.classify(volume) != Ok(Containment::Outside)
 }
 
-/// Balls no larger than what rounding takes from their middles, which are on edges and vertices.
+/// Spheres no larger than the rounding errors of their centers, which are on edges and vertices.
 #[test]
-fn balls_as_small_as_rounding_errors() {
-    let mut next = numbers();
-    let mut apart = 0;
+fn spheres_as_small_as_rounding_errors() {
+    let mut next = values();
+    let mut separate = 0;
     for family in [Family::Random, Family::OffAxis, Family::FreePose] {
         for block in 0..40 {
             let scene = family.scene(8, block);
@@ -367,22 +367,22 @@ fn balls_as_small_as_rounding_errors() {
                         let size = middle.x.abs() + middle.y.abs() + middle.z.abs();
                         for k in -8..4 {
                             let radius = size * (1.0 + next() * 0.5) * 2.0_f64.powi(k - 53);
-                            let ball = Sphere::new(middle, radius).into();
-                            apart += u32::from(check_exact(&culler, &oracle, ball));
+                            let sphere = Sphere::new(middle, radius).into();
+                            separate += u32::from(check_exact(&culler, &oracle, sphere));
                         }
                     }
                 }
             }
         }
     }
-    assert!(apart > 100, "{apart}");
+    assert!(separate > 100, "{separate}");
 }
 
-/// Boxes with an edge along a ray of an infinite frustum, or nearly so: whether the ray goes down
-/// along the normal of such a box's face is a matter of rounding.
+/// Boxes with an edge along a ray of an infinite frustum, or nearly so: whether the ray descends
+/// along the normal of such a box's face depends on rounding.
 #[test]
 fn boxes_along_a_ray() {
-    let mut next = numbers();
+    let mut next = values();
     let near = EndRect::new(1.0, -1.0, 1.0, -1.0, 1.0);
     let shape = Shape::Infinite {
         near,
@@ -391,18 +391,18 @@ fn boxes_along_a_ray() {
     };
     let frustum = Frustum::new(Pose::IDENTITY, shape).expect("a frustum");
     let (culler, oracle) = (Culler::new(&frustum), Oracle::new(&frustum));
-    let mut apart = 0;
+    let mut separate = 0;
     for _ in 0..20_000 {
         let length = 1.0 + next();
         let nudge = |n: f64| length * (1.0 + f64::EPSILON * (2.0 * n).round());
         let along = [nudge(next()), nudge(next()), length];
         let mut vector = |scale: f64| [scale * next(), scale * next(), scale * next()];
         let half_axes = [along, vector(0.3), vector(0.3)];
-        // About the edge that goes on from x = y = 1.
+        // Around the edge that continues from x = y = 1.
         let [x, y, z] = vector(1.0);
         let center = [4.0 + 0.3 * x, 4.0 + 0.3 * y, 3.7 + 0.3 * z];
         let volume = Obb::new(center, half_axes).into();
-        apart += u32::from(check_exact(&culler, &oracle, volume));
+        separate += u32::from(check_exact(&culler, &oracle, volume));
     }
-    assert!(apart > 500, "{apart}");
+    assert!(separate > 500, "{separate}");
 }

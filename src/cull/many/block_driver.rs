@@ -1,12 +1,13 @@
-//! Volumes by blocks, and what is done with their answers.
+//! Volumes by blocks, and the exact answers to what a kernel leaves open.
 //!
 //! ```text
-//! for each block of 256 volumes, a bit each:
-//!     certainly outside, certainly inside, unsettled
-//!     what is unsettled is asked for one by one, exactly
-//!     the words go to the caller's buffers: masks, classes or a list of numbers
+//! for each block of 256 volumes, by the kernel, a bit each:
+//!     certainly outside, certainly inside, undecided
+//! undecided volumes are classified one by one, exactly
+//! the bits go to a sink: masks, classes or a list of indices
 //! ```
 
+use super::output::Sink;
 use crate::cull::{Containment, Culler, Volume, VolumeCounts, VolumeErrorAt};
 use crate::frustum::eval::planes::FacePlanes;
 use crate::math::Real;
@@ -14,21 +15,21 @@ use crate::simd::at_width;
 use fearless_simd::prelude::*;
 use fearless_simd::{Level, f32x8, f64x4};
 
-/// Volumes whose bits make a word.
+/// Volumes whose bits make a machine word.
 pub(super) const WORD: usize = u64::BITS as usize;
 
-/// Volumes in a block: few enough that their numbers stay in the first cache from one
-/// pass over them to the next, so many that loops are not unrolled altogether.
+/// Volumes in a block: few enough that they stay in the first-level cache from one pass over
+/// them to the next, so many that loops are not unrolled completely.
 pub(super) const BLOCK: usize = 4 * WORD;
 
-/// Eight volumes, K numbers each.
+/// Eight volumes of K components each.
 pub(super) type Eight<T, const K: usize> = [[T; 8]; K];
 
-/// A block's numbers, in order of volumes but for eights: one stream through memory, and
-/// whole registers.
+/// A block's components, eight volumes at a time: one stream through memory, in whole
+/// registers.
 pub(super) type Block<T, const K: usize> = [Eight<T, K>; BLOCK / 8];
 
-/// Number k of a group of N volumes.
+/// Component k of a group of N volumes.
 #[inline(always)]
 pub(super) fn load<S, V, T, const N: usize, const K: usize>(
     simd: S,
@@ -40,86 +41,73 @@ where
     S: Simd,
     V: SimdFloat<S, Element = T>,
 {
-    // The remainder changes nothing, and spares a check for each.
-    let numbers = &block[group * N / 8][k % K];
-    V::from_slice(simd, &numbers[group * N % 8..][..N])
+    // `% K` changes nothing, and spares a bounds check.
+    let components = &block[group * N / 8][k % K];
+    V::from_slice(simd, &components[group * N % 8..][..N])
 }
 
-/// The bits of a block.
-pub(super) type Words = [BlockBits; BLOCK / WORD];
+/// The answers about a block.
+pub(super) type BlockAnswers = [BlockBits; BLOCK / WORD];
 
 /// Bits for 64 volumes.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct BlockBits {
+pub struct BlockBits {
     pub(super) outside: u64,
     pub(super) inside: u64,
-    pub(super) unsettled: u64,
+    pub(super) undecided: u64,
 }
 
 impl BlockBits {
-    /// Sets the bits of N volumes, from that of number `at` on: who is certainly
-    /// outside, who certainly inside, whose class is certain.
+    /// Sets the bits of N volumes from index `at` on: certainly outside, certainly inside,
+    /// class certain.
     #[inline(always)]
     pub(super) fn set<const N: usize>(&mut self, at: usize, masks: [u64; 3]) {
-        let [outside, inside, settled] = masks;
+        let [outside, inside, decided] = masks;
         self.outside |= outside << at;
         self.inside |= inside << at;
-        self.unsettled |= (!settled & (u64::MAX >> (WORD - N))) << at;
+        self.undecided |= (!decided & (u64::MAX >> (WORD - N))) << at;
     }
 }
 
-/// Many volumes of one kind, K numbers each.
+/// Many volumes of one kind, of K components each, and their kernel.
 pub(super) trait Volumes<T: Real, const K: usize> {
     fn len(&self) -> usize;
 
     fn volume(&self, index: usize) -> Option<Volume>;
 
-    /// The block from `start` on, if it is kept, and its largest magnitude; all of it are
-    /// volumes.
+    /// The block from `start` on, if it is stored, and its largest magnitude; all of its
+    /// volumes are valid.
     fn block(&self, start: usize) -> Option<(&Block<T, K>, T)>;
 
-    /// Arrays that have the numbers, if there are any.
+    /// The components as arrays, if they are stored so.
     fn arrays(&self) -> Option<[&[T]; K]>;
 
-    /// The numbers of one.
-    fn numbers(&self, index: usize) -> [T; K];
+    /// The components of one volume.
+    fn components(&self, index: usize) -> [T; K];
 
-    /// What a register at a time settles; without INSIDE only what is outside is told. The
-    /// largest magnitude is given if all are known to be volumes.
-    fn words<S, V, const N: usize, const INSIDE: bool>(
+    /// Classifies a block, a register at a time; without INSIDE only *outside* is decided. The
+    /// largest magnitude is given if all volumes are known to be valid.
+    fn classify_block<S, V, const N: usize, const INSIDE: bool>(
         simd: S,
-        rows: &FacePlanes<T>,
+        planes: &FacePlanes<T>,
         block: &Block<T, K>,
         largest: Option<T>,
-    ) -> Words
+    ) -> BlockAnswers
     where
         S: Simd,
         V: SimdFloat<S, Element = T, Array = [T; N]>;
 }
 
-/// Where answers go.
-pub(super) trait Sink {
-    /// Whether it matters what is inside.
-    const INSIDE: bool;
-
-    /// The words of the next `count` volumes, all settled; no other bits are set.
-    fn take(&mut self, count: usize, word: BlockBits);
-
-    /// All have been told.
-    #[inline(always)]
-    fn finish(&mut self) {}
-}
-
-/// Asks a frustum about all volumes of a lot.
-pub(super) struct BlockDriver<'a, T, L> {
+/// Classifies all volumes, block by block.
+pub(super) struct BlockDriver<'a, T, V> {
     pub(super) culler: &'a Culler,
-    pub(super) rows: &'a FacePlanes<T>,
-    pub(super) lot: &'a L,
+    pub(super) planes: &'a FacePlanes<T>,
+    pub(super) volumes: &'a V,
     pub(super) counts: &'a mut VolumeCounts,
 }
 
-impl<T: Real, L> BlockDriver<'_, T, L> {
-    /// On an error the sink has what came before.
+impl<T: Real, Vols> BlockDriver<'_, T, Vols> {
+    /// On an error the sink has the answers before it.
     #[inline(always)]
     pub(super) fn run<S, V, const N: usize, const K: usize, Out: Sink>(
         &mut self,
@@ -129,48 +117,52 @@ impl<T: Real, L> BlockDriver<'_, T, L> {
     where
         S: Simd,
         V: SimdFloat<S, Element = T, Array = [T; N]>,
-        L: Volumes<T, K>,
+        Vols: Volumes<T, K>,
     {
         let mut gathered = [[[T::ZERO; 8]; K]; BLOCK / 8];
-        for start in (0..self.lot.len()).step_by(BLOCK) {
-            let count = BLOCK.min(self.lot.len() - start);
-            let (block, largest) = match self.lot.block(start) {
+        for start in (0..self.volumes.len()).step_by(BLOCK) {
+            let count = BLOCK.min(self.volumes.len() - start);
+            let (block, largest) = match self.volumes.block(start) {
                 Some((block, largest)) => (block, Some(largest)),
                 None => {
                     self.gather(start, count, &mut gathered);
                     (&gathered, None)
                 }
             };
-            let words = match Out::INSIDE {
-                true => L::words::<S, V, N, true>(simd, self.rows, block, largest),
-                false => L::words::<S, V, N, false>(simd, self.rows, block, largest),
+            let answers = match Out::INSIDE {
+                true => Vols::classify_block::<S, V, N, true>(simd, self.planes, block, largest),
+                false => Vols::classify_block::<S, V, N, false>(simd, self.planes, block, largest),
             };
-            for (k, mut word) in words.into_iter().enumerate() {
+            for (k, mut bits) in answers.into_iter().enumerate() {
                 let Some(count) = count.checked_sub(k * WORD).filter(|&count| count > 0) else {
                     break;
                 };
                 let count = count.min(WORD);
                 let present = u64::MAX >> (WORD - count);
-                word.unsettled &= present;
-                if word.unsettled != 0 {
-                    self.settle(start + k * WORD, &mut word)?;
+                bits.undecided &= present;
+                if bits.undecided != 0 {
+                    self.decide(start + k * WORD, &mut bits)?;
                 }
-                word.outside &= present;
-                word.inside &= present;
-                out.take(count, word);
+                bits.outside &= present;
+                bits.inside &= present;
+                out.take(count, bits);
             }
         }
         out.finish();
         Ok(())
     }
 
-    /// A block's numbers; beyond the last volume it repeats that.
+    /// Copies a block's components; beyond the last volume that one is repeated.
     #[inline(always)]
     fn gather<const K: usize>(&self, start: usize, count: usize, to: &mut Block<T, K>)
     where
-        L: Volumes<T, K>,
+        Vols: Volumes<T, K>,
     {
-        if let Some(arrays) = self.lot.arrays().and_then(|arrays| blocks(arrays, start)) {
+        if let Some(arrays) = self
+            .volumes
+            .arrays()
+            .and_then(|arrays| blocks(arrays, start))
+        {
             for (i, eight) in to.iter_mut().enumerate() {
                 for (to, from) in eight.iter_mut().zip(arrays) {
                     to.copy_from_slice(&from[8 * i..8 * i + 8]);
@@ -179,47 +171,47 @@ impl<T: Real, L> BlockDriver<'_, T, L> {
             return;
         }
         for i in 0..BLOCK {
-            let numbers = self.lot.numbers(start + i.min(count - 1));
-            for (to, number) in to[i / 8].iter_mut().zip(numbers) {
-                to[i % 8] = number;
+            let components = self.volumes.components(start + i.min(count - 1));
+            for (to, component) in to[i / 8].iter_mut().zip(components) {
+                to[i % 8] = component;
             }
         }
     }
 
-    /// One by one.
+    /// Classifies undecided volumes one by one.
     #[inline(never)]
-    fn settle<const K: usize>(
+    fn decide<const K: usize>(
         &mut self,
         start: usize,
-        word: &mut BlockBits,
+        bits: &mut BlockBits,
     ) -> Result<(), VolumeErrorAt>
     where
-        L: Volumes<T, K>,
+        Vols: Volumes<T, K>,
     {
-        while word.unsettled != 0 {
-            let bit = word.unsettled & word.unsettled.wrapping_neg();
-            word.unsettled ^= bit;
-            self.counts.unsettled += 1;
+        while bits.undecided != 0 {
+            let bit = bits.undecided & bits.undecided.wrapping_neg();
+            bits.undecided ^= bit;
+            self.counts.undecided += 1;
             let index = start + bit.trailing_zeros() as usize;
-            let Some(volume) = self.lot.volume(index) else {
+            let Some(volume) = self.volumes.volume(index) else {
                 continue;
             };
             let class = self
                 .culler
                 .classify_counted(volume, self.counts)
                 .map_err(|error| VolumeErrorAt { index, error })?;
-            word.outside |= if class == Containment::Outside {
+            bits.outside |= if class == Containment::Outside {
                 bit
             } else {
                 0
             };
-            word.inside |= if class == Containment::Inside { bit } else { 0 };
+            bits.inside |= if class == Containment::Inside { bit } else { 0 };
         }
         Ok(())
     }
 }
 
-/// A block from `start` of each array, if there are so many.
+/// The block from `start` on of each array, if all of them reach so far.
 #[inline(always)]
 fn blocks<T, const K: usize>(arrays: [&[T]; K], start: usize) -> Option<[&[T; BLOCK]; K]> {
     let mut blocks = [arrays.first()?.get(start..)?.first_chunk()?; K];
@@ -229,34 +221,36 @@ fn blocks<T, const K: usize>(arrays: [&[T]; K], start: usize) -> Option<[&[T; BL
     Some(blocks)
 }
 
-/// Asks about a lot at the machine's vector width.
-macro_rules! drive {
+/// Classifies all volumes at the machine's vector width.
+macro_rules! run {
     ($name:ident, $t:ident, $lanes:ident, $n:literal) => {
-        pub(super) fn $name<const K: usize, L: Volumes<$t, K>, Out: Sink>(
+        pub(super) fn $name<const K: usize, Vols: Volumes<$t, K>, Out: Sink>(
             level: Level,
-            mut drive: BlockDriver<'_, $t, L>,
+            mut driver: BlockDriver<'_, $t, Vols>,
             out: &mut Out,
         ) -> Result<(), VolumeErrorAt> {
-            at_width!(level, simd => run_at::<_, $t, $lanes<_>, $n, K, L, Out>(simd, &mut drive, out))
+            at_width!(level, simd => {
+                run_at::<_, $t, $lanes<_>, $n, K, Vols, Out>(simd, &mut driver, out)
+            })
         }
     };
 }
 
 #[inline(always)]
-fn run_at<S, T, V, const N: usize, const K: usize, L, Out>(
+fn run_at<S, T, V, const N: usize, const K: usize, Vols, Out>(
     simd: S,
-    drive: &mut BlockDriver<'_, T, L>,
+    driver: &mut BlockDriver<'_, T, Vols>,
     out: &mut Out,
 ) -> Result<(), VolumeErrorAt>
 where
     S: Simd,
     T: Real,
     V: SimdFloat<S, Element = T, Array = [T; N]>,
-    L: Volumes<T, K>,
+    Vols: Volumes<T, K>,
     Out: Sink,
 {
-    drive.run::<S, V, N, K, Out>(simd, out)
+    driver.run::<S, V, N, K, Out>(simd, out)
 }
 
-drive!(singles, f32, f32x8, 8);
-drive!(doubles, f64, f64x4, 4);
+run!(run_f32, f32, f32x8, 8);
+run!(run_f64, f64, f64x4, 4);

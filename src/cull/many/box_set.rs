@@ -1,15 +1,17 @@
 //! Boxes that are kept from frame to frame.
 //!
-//! What a batch must find out about boxes that it is given, that they are boxes, and how
-//! large their numbers are, is found out once, when they are put in; and they lie in blocks
-//! as the kernels want them. A list takes a fifth less time than from arrays.
+//! Boxes are checked, and their largest magnitude is found, once, when they are put in; and
+//! they are stored in blocks as the kernels read them. A list of indices takes a fifth less
+//! time than from arrays.
 
 use super::block_driver::{BLOCK, Block};
 use crate::cull::{Aabb, VolumeError, VolumeErrorAt};
 use crate::math::Real;
 
-/// Axis-aligned boxes, kept ready to be asked about again and again; in memory a multiple
-/// of 256 of them.
+/// Axis-aligned boxes that are kept from frame to frame: checked once, and the fastest source
+/// of a query.
+///
+/// In memory they are a multiple of 256 boxes, of six scalars each.
 ///
 /// ```
 /// use frusta::cull::BoxSet;
@@ -21,21 +23,21 @@ use crate::math::Real;
 /// let mut set = BoxSet::new(row.map(|x| Aabb::new([x, 0.0, 2.0], [x + 0.5, 1.0, 2.5])))?;
 /// let mut visible = Vec::new();
 /// let culler = Culler::new(&frustum);
-/// culler.visible_boxes(&set, &mut visible)?;
+/// culler.over(&set).visible(&mut visible)?;
 /// assert_eq!(visible, [0, 1, 2]);
-/// // One moves.
+/// // One box moves.
 /// set.set(8, Aabb::new([0.0, 0.0, 1.0], [0.5, 0.5, 1.5]))?;
-/// culler.visible_boxes(&set, &mut visible)?;
+/// culler.over(&set).visible(&mut visible)?;
 /// assert_eq!(visible, [0, 1, 2, 8]);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug)]
 pub struct BoxSet<T> {
     len: usize,
-    /// Least x, y and z of each box, then the greatest. The last block is filled up with
-    /// points at the origin.
+    /// Least x, y and z of each box, then the greatest. The last block is padded with points
+    /// at the origin.
     blocks: Vec<Block<T, 6>>,
-    /// No number in a block is of a greater magnitude.
+    /// The largest magnitude in each block.
     largest: Vec<T>,
 }
 
@@ -50,10 +52,10 @@ impl<T> Default for BoxSet<T> {
 }
 
 impl<T: Real> BoxSet<T> {
-    /// Of some boxes.
+    /// Makes a set of some boxes.
     ///
     /// # Errors
-    /// The first box that is none, as [`Aabb::check`].
+    /// The first box that fails [`Aabb::check`].
     pub fn new(boxes: impl IntoIterator<Item = Aabb<T>>) -> Result<Self, VolumeErrorAt> {
         let mut set = Self::default();
         for (index, volume) in boxes.into_iter().enumerate() {
@@ -63,36 +65,36 @@ impl<T: Real> BoxSet<T> {
         Ok(set)
     }
 
-    /// How many there are.
+    /// Number of boxes.
     #[must_use]
     pub fn len(&self) -> usize {
         self.len
     }
 
-    /// Whether there is none.
+    /// Whether there are no boxes.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.len == 0
     }
 
-    /// One of them.
+    /// The box at an index; `None` beyond the last.
     #[must_use]
     pub fn get(&self, index: usize) -> Option<Aabb<T>> {
-        BoxBlocks::from(self).get(index)
+        Stored::from(self).get(index)
     }
 
-    /// Appends one.
+    /// Appends a box.
     ///
     /// # Errors
-    /// What [`Aabb::check`] finds; nothing is appended then.
+    /// Those of [`Aabb::check`]; nothing is then appended.
     pub fn push(&mut self, volume: Aabb<T>) -> Result<(), VolumeError> {
         volume.check()?;
         self.append(volume);
         Ok(())
     }
 
-    /// Appends what is a box, but that numbers may be infinite: nothing is certain about its
-    /// block then.
+    /// Appends a box that is valid, except that coordinates may be infinite: then the kernel
+    /// decides nothing in its block.
     pub(super) fn append(&mut self, volume: Aabb<T>) {
         if self.len.is_multiple_of(BLOCK) {
             self.blocks.push([[[T::ZERO; 8]; 6]; BLOCK / 8]);
@@ -102,22 +104,22 @@ impl<T: Real> BoxSet<T> {
         self.put(self.len - 1, volume);
     }
 
-    /// Puts another box in the place of one.
+    /// Replaces the box at an index.
     ///
     /// # Errors
-    /// What [`Aabb::check`] finds; nothing is changed then.
+    /// Those of [`Aabb::check`]; nothing is then changed.
     ///
     /// # Panics
-    /// If there is no box of that number, as for a slice.
+    /// If the index is not below the length.
     pub fn set(&mut self, index: usize, volume: Aabb<T>) -> Result<(), VolumeError> {
         let len = self.len;
-        assert!(index < len, "the number is {index} but there are {len}");
+        assert!(index < len, "the index is {index} but the length is {len}");
         volume.check()?;
         self.put(index, volume);
         Ok(())
     }
 
-    /// Removes all; memory is kept.
+    /// Removes all boxes and keeps the memory.
     pub fn clear(&mut self) {
         self.len = 0;
         self.blocks.clear();
@@ -126,32 +128,32 @@ impl<T: Real> BoxSet<T> {
 
     fn put(&mut self, index: usize, Aabb { min, max }: Aabb<T>) {
         let (block, place) = (index / BLOCK, index % BLOCK);
-        let numbers = [min.x, min.y, min.z, max.x, max.y, max.z];
+        let components = [min.x, min.y, min.z, max.x, max.y, max.z];
         let largest = &mut self.largest[block];
         let mut was_largest = false;
-        for (eight, number) in self.blocks[block][place / 8].iter_mut().zip(numbers) {
+        for (eight, component) in self.blocks[block][place / 8].iter_mut().zip(components) {
             was_largest |= eight[place % 8].abs() >= *largest;
-            eight[place % 8] = number;
+            eight[place % 8] = component;
         }
         let greater = |a: T, b: &T| if b.abs() > a { b.abs() } else { a };
         *largest = if was_largest {
             let all = self.blocks[block].as_flattened().as_flattened();
             all.iter().fold(T::ZERO, greater)
         } else {
-            numbers.iter().fold(*largest, greater)
+            components.iter().fold(*largest, greater)
         };
     }
 }
 
-/// A [`BoxSet`] as [`super::Boxes`] have it.
+/// The boxes of a [`BoxSet`], or a range of them.
 #[derive(Clone, Copy, Debug)]
-pub struct BoxBlocks<'a, T> {
+pub struct Stored<'a, T> {
     len: usize,
     blocks: &'a [Block<T, 6>],
     largest: &'a [T],
 }
 
-impl<'a, T> From<&'a BoxSet<T>> for BoxBlocks<'a, T> {
+impl<'a, T> From<&'a BoxSet<T>> for Stored<'a, T> {
     fn from(set: &'a BoxSet<T>) -> Self {
         Self {
             len: set.len,
@@ -161,7 +163,7 @@ impl<'a, T> From<&'a BoxSet<T>> for BoxBlocks<'a, T> {
     }
 }
 
-impl<'a, T: Real> BoxBlocks<'a, T> {
+impl<'a, T: Real> Stored<'a, T> {
     pub(super) fn len(&self) -> usize {
         self.len
     }
@@ -174,14 +176,14 @@ impl<'a, T: Real> BoxBlocks<'a, T> {
         })
     }
 
-    /// The block that begins with a box, and the largest magnitude in it.
+    /// The block whose first box is at `start`, and the largest magnitude in it.
     #[inline(always)]
     pub(super) fn block(&self, start: usize) -> Option<(&'a Block<T, 6>, T)> {
         let k = start / BLOCK;
         Some((self.blocks.get(k)?, *self.largest.get(k)?))
     }
 
-    /// Some of them, from the beginning of a block on.
+    /// A range of the boxes, from the beginning of a block on.
     #[cfg(feature = "parallel")]
     pub(super) fn part(&self, range: std::ops::Range<usize>) -> Self {
         debug_assert!(range.start.is_multiple_of(BLOCK));

@@ -1,37 +1,37 @@
-//! Axis-aligned boxes, a register of them at a time.
+//! The kernel for axis-aligned boxes, a register of them at a time.
 //!
 //! # Idea
-//! A face's function is greatest at the corner farthest along its normal, least at the
-//! opposite one. Which number of a box is a corner's coordinate depends on the face
-//! alone: for a face it is chosen once.
+//! A face's function is greatest at the corner farthest along its normal, and least at the
+//! opposite corner. Which components of a box are that corner's coordinates depends on the
+//! face alone, so they are chosen once for each face.
 //! ```text
 //! for each block of 256 boxes:
-//!     whether they are boxes, and the largest number    of a BoxSet known before
-//!     near and far, which have one normal; left         greatest values, least ones if
-//!     right, bottom, top                                asked for; of all the least:
-//!     outside if the least of the greatest is negative, inside if no least one is
+//!     check that min <= max, find the largest magnitude     (known before for a BoxSet)
+//!     pass 1: near and far, which share a normal; left      least over the faces of the
+//!     pass 2: right, bottom, top                            greatest and of the least values
+//!     outside if the least greatest value is negative, inside if the least least one is not
 //! ```
-//! A pass has as many faces as registers hold numbers of. No branch depends on a box. What
-//! the threshold does not settle is told by bits.
+//! A pass has as many faces as fit in registers. No branch depends on a box. What the
+//! threshold leaves open is marked as undecided.
 //!
-//! # The error bound
-//! In units of u, S >= |p_x| + |p_y| + |p_z| of a corner, |n_j| < 1: a number 1, the
-//! product 1, sums 3: 5.01 S + 4.01 |d|. The threshold has 8 of S and of the largest
-//! |d|. It is the same for a block: S is three times the largest magnitude in it. Sums
-//! that are fused with their products are rounded less often; classes are the exact ones
-//! with or without.
+//! # Error bound
+//! In units of u, with S >= |p_x| + |p_y| + |p_z| of a corner and |n_j| < 1: a component of
+//! the normal is off by 1, the product by 1, three sums by 3: 5.01 S + 4.01 |d|. The
+//! threshold is 8 S + 8 |d|, with the largest |d|. It is the same for a whole block: S is
+//! three times the largest magnitude in it. Sums that are fused with their products are
+//! rounded less often; the classes are exact with or without.
 //!
-//! If S is finite no sum overflows: |n_j| < 1, and |d| is far below the largest number.
-//! A block with NaN or with `min > max` is settled one by one, which finds it; with an
-//! infinity S is infinite.
+//! If S is finite no sum overflows: |n_j| < 1, and |d| is far below the largest finite value.
+//! A block with NaN or with `min > max` is classified one by one, which finds the error; with
+//! an infinity S is infinite.
 //!
-//! # Turned down
-//! Middle and half extents in V/W's frame (nine products each, then one half-width for
-//! two sides): more operations than corners have, and a turned box reaches farther in
-//! the frame than it does, which would be more boxes to look at again.
+//! # Rejected alternative
+//! Middle and half extents in V/W's frame (nine products each, then one half-width for two
+//! sides): it takes more operations than corners, and the box around a box turned into the
+//! frame is larger, so more boxes are undecided.
 
-use super::block_driver::{BLOCK, Block, BlockBits, Volumes, WORD, Words, load};
-use super::box_set::{BoxBlocks, BoxSet};
+use super::block_driver::{BLOCK, Block, BlockAnswers, BlockBits, Volumes, WORD, load};
+use super::box_set::{BoxSet, Stored};
 use crate::cull::{Aabb, Volume};
 use crate::frustum::eval::planes::{FacePlanes, Plane};
 use crate::math::{Real, Vec3};
@@ -40,35 +40,37 @@ use fearless_simd::prelude::*;
 #[cfg(feature = "parallel")]
 use std::ops::Range;
 
-/// Boxes in six arrays, in one, or in a [`BoxSet`].
+/// Boxes as six arrays (structure of arrays), a source of a query.
+///
+/// The shortest array determines the number of boxes; the rest of longer ones is ignored.
 ///
 /// ```
-/// use frusta::cull::{BoxArrays, Boxes};
-/// use frusta::Aabb;
-/// let (low, high) = ([0.0_f32, 1.0, 2.0], [1.0, 2.0, 3.0]);
-/// let arrays = Boxes::from(BoxArrays { min: [&low, &low, &low], max: [&high, &high, &high] });
-/// assert_eq!(arrays.len(), 3);
-/// assert_eq!(arrays.get(1), Some(Aabb::new([1.0; 3], [2.0; 3])));
-/// let boxes = [Aabb::new([0.0_f32; 3], [1.0; 3])];
-/// assert_eq!(Boxes::from(&boxes[..]).len(), 1);
+/// use frusta::cull::BoxArrays;
+/// use frusta::{Culler, EndRect, Frustum, Pose, Shape};
+/// # let near = EndRect::new(1.0, -1.0, 1.0, -1.0, 1.0);
+/// # let far = EndRect::new(3.0, -3.0, 3.0, -3.0, 3.0);
+/// # let frustum = Frustum::new(Pose::IDENTITY, Shape::Finite { near, far })?;
+/// let (low, high) = ([0.0_f32, 1.0, 8.0], [1.0, 2.0, 9.0]);
+/// let boxes = BoxArrays { min: [&low; 3], max: [&high; 3] };
+/// let mut visible = Vec::new();
+/// Culler::new(&frustum).over(boxes).visible(&mut visible)?;
+/// assert_eq!(visible, [0, 1]);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Copy, Debug)]
-pub enum Boxes<'a, T> {
-    /// Structure of arrays: faster than structures.
-    Arrays(BoxArrays<'a, T>),
-    /// Array of structures.
-    Slice(&'a [Aabb<T>]),
-    /// Boxes that are kept: faster than arrays.
-    Set(BoxBlocks<'a, T>),
+pub struct BoxArrays<'a, T> {
+    /// The least x, y and z of each box.
+    pub min: [&'a [T]; 3],
+    /// The greatest x, y and z of each box.
+    pub max: [&'a [T]; 3],
 }
 
-/// Boxes as six arrays of one length; of longer ones only the beginning counts.
+/// Boxes in one of three layouts.
 #[derive(Clone, Copy, Debug)]
-pub struct BoxArrays<'a, T> {
-    /// Least x, y and z of each.
-    pub min: [&'a [T]; 3],
-    /// Greatest x, y and z of each.
-    pub max: [&'a [T]; 3],
+pub enum Boxes<'a, T> {
+    Arrays(BoxArrays<'a, T>),
+    Slice(&'a [Aabb<T>]),
+    Set(Stored<'a, T>),
 }
 
 impl<'a, T> From<BoxArrays<'a, T>> for Boxes<'a, T> {
@@ -89,6 +91,12 @@ impl<'a, T> From<&'a Vec<Aabb<T>>> for Boxes<'a, T> {
     }
 }
 
+impl<'a, T, const N: usize> From<&'a [Aabb<T>; N]> for Boxes<'a, T> {
+    fn from(boxes: &'a [Aabb<T>; N]) -> Self {
+        Boxes::Slice(boxes)
+    }
+}
+
 impl<'a, T> From<&'a BoxSet<T>> for Boxes<'a, T> {
     fn from(set: &'a BoxSet<T>) -> Self {
         Boxes::Set(set.into())
@@ -96,9 +104,7 @@ impl<'a, T> From<&'a BoxSet<T>> for Boxes<'a, T> {
 }
 
 impl<T: Real> Boxes<'_, T> {
-    /// How many there are.
-    #[must_use]
-    pub fn len(&self) -> usize {
+    pub(super) fn len(&self) -> usize {
         match self {
             Boxes::Arrays(BoxArrays { min, max }) => {
                 let all = min.iter().chain(max).map(|a| a.len());
@@ -109,7 +115,7 @@ impl<T: Real> Boxes<'_, T> {
         }
     }
 
-    /// Some of them, of as many as there are.
+    /// A range of the boxes.
     #[cfg(feature = "parallel")]
     pub(super) fn part(&self, range: Range<usize>) -> Self {
         match *self {
@@ -122,15 +128,7 @@ impl<T: Real> Boxes<'_, T> {
         }
     }
 
-    /// Whether there is none.
-    #[must_use]
-    pub fn is_empty(&self) -> bool {
-        self.len() == 0
-    }
-
-    /// One of them.
-    #[must_use]
-    pub fn get(&self, index: usize) -> Option<Aabb<T>> {
+    pub(super) fn get(&self, index: usize) -> Option<Aabb<T>> {
         let of = |arrays: &[&[T]; 3]| {
             let [x, y, z] = arrays.map(|a| a.get(index).copied());
             Some(Vec3::new(x?, y?, z?))
@@ -174,18 +172,18 @@ impl<T: Real> Volumes<T, 6> for Boxes<'_, T> {
     }
 
     #[inline(always)]
-    fn numbers(&self, index: usize) -> [T; 6] {
+    fn components(&self, index: usize) -> [T; 6] {
         let Aabb { min, max } = self.get(index).unwrap_or_default();
         [min.x, min.y, min.z, max.x, max.y, max.z]
     }
 
     #[inline(always)]
-    fn words<S, V, const N: usize, const INSIDE: bool>(
+    fn classify_block<S, V, const N: usize, const INSIDE: bool>(
         simd: S,
-        rows: &FacePlanes<T>,
+        planes: &FacePlanes<T>,
         block: &Block<T, 6>,
         largest: Option<T>,
-    ) -> Words
+    ) -> BlockAnswers
     where
         S: Simd,
         V: SimdFloat<S, Element = T, Array = [T; N]>,
@@ -194,33 +192,35 @@ impl<T: Real> Volumes<T, 6> for Boxes<'_, T> {
             Some(largest) => (largest, true),
             None => check::<S, V, T, N>(simd, block),
         };
-        let threshold = rows.threshold(largest + largest + largest, is_valid);
+        let threshold = planes.threshold(largest + largest + largest, is_valid);
         let mut greatest = [T::ZERO; BLOCK];
         let mut least = [T::ZERO; BLOCK];
-        first::<S, V, T, N, INSIDE>(simd, rows, block, &mut greatest, &mut least);
-        let [_, sides @ ..] = &rows.sides;
-        let of = |which: usize| sides.each_ref().map(|row| row.corners[which]);
-        let [outside, within] = rest::<S, V, T, N>(simd, sides, block, of(0), &greatest, threshold);
-        let mut words = [BlockBits::default(); BLOCK / WORD];
+        first_faces::<S, V, T, N, INSIDE>(simd, planes, block, &mut greatest, &mut least);
+        let [_, sides @ ..] = &planes.sides;
+        let corners = |which: usize| sides.each_ref().map(|plane| plane.corners[which]);
+        let [outside, within] =
+            last_faces::<S, V, T, N>(simd, sides, block, corners(0), &greatest, threshold);
+        let mut answers = [BlockBits::default(); BLOCK / WORD];
         if !INSIDE {
-            for (k, word) in words.iter_mut().enumerate() {
+            for (k, bits) in answers.iter_mut().enumerate() {
                 let [outside, within] = [&outside, &within].map(|bytes| joined::<N>(bytes, k));
-                word.set::<WORD>(0, [outside, 0, outside | within]);
+                bits.set::<WORD>(0, [outside, 0, outside | within]);
             }
-            return words;
+            return answers;
         }
-        let [crossed, inside] = rest::<S, V, T, N>(simd, sides, block, of(1), &least, threshold);
-        for (k, word) in words.iter_mut().enumerate() {
+        let [crossed, inside] =
+            last_faces::<S, V, T, N>(simd, sides, block, corners(1), &least, threshold);
+        for (k, bits) in answers.iter_mut().enumerate() {
             let all = [&outside, &within, &crossed, &inside];
             let [outside, within, crossed, inside] = all.map(|bytes| joined::<N>(bytes, k));
             let inside = within & inside;
-            word.set::<WORD>(0, [outside, inside, outside | inside | within & crossed]);
+            bits.set::<WORD>(0, [outside, inside, outside | inside | within & crossed]);
         }
-        words
+        answers
     }
 }
 
-/// A word from the bits of its groups, a byte each.
+/// Joins the bits of a word's groups, a byte each.
 #[inline(always)]
 fn joined<const N: usize>(bytes: &[u8; BLOCK / 4], word: usize) -> u64 {
     let groups = &bytes[word * (WORD / N)..][..WORD / N];
@@ -234,7 +234,7 @@ fn joined<const N: usize>(bytes: &[u8; BLOCK / 4], word: usize) -> u64 {
     bits
 }
 
-/// The largest magnitude in a block, and whether all are boxes.
+/// The largest magnitude in a block, and whether all boxes have `min <= max`.
 #[inline(always)]
 fn check<S, V, T, const N: usize>(simd: S, block: &Block<T, 6>) -> (T, bool)
 where
@@ -267,7 +267,7 @@ where
     (largest, valid.to_bitmask() == u64::MAX >> (64 - N))
 }
 
-/// Which numbers of a box are a corner's coordinates.
+/// Which components of a box are a corner's coordinates.
 type Corner = [usize; 3];
 
 /// The corners of a group.
@@ -308,12 +308,12 @@ where
     )
 }
 
-/// Of each box the least over near, far and left of their greatest, and of their least
-/// values.
+/// Writes, for each box, the least over near, far and left of their greatest values, and of
+/// their least ones.
 #[inline(always)]
-fn first<S, V, T, const N: usize, const INSIDE: bool>(
+fn first_faces<S, V, T, const N: usize, const INSIDE: bool>(
     simd: S,
-    rows: &FacePlanes<T>,
+    planes: &FacePlanes<T>,
     block: &Block<T, 6>,
     to_greatest: &mut [T; BLOCK],
     to_least: &mut [T; BLOCK],
@@ -323,12 +323,12 @@ fn first<S, V, T, const N: usize, const INSIDE: bool>(
     V: SimdFloat<S, Element = T, Array = [T; N]>,
 {
     let (near, left) = (
-        PlaneLanes::<V>::new(simd, &rows.near),
-        PlaneLanes::<V>::new(simd, &rows.sides[0]),
+        PlaneLanes::<V>::new(simd, &planes.near),
+        PlaneLanes::<V>::new(simd, &planes.sides[0]),
     );
-    let (far, zero) = (V::splat(simd, rows.far), V::splat(simd, T::ZERO));
-    let [farthest, opposite] = rows.near.corners;
-    let [left_farthest, left_opposite] = rows.sides[0].corners;
+    let (far, zero) = (V::splat(simd, planes.far), V::splat(simd, T::ZERO));
+    let [farthest, opposite] = planes.near.corners;
+    let [left_farthest, left_opposite] = planes.sides[0].corners;
     for group in 0..BLOCK / N {
         let to = group * N..group * N + N;
         let along = near.along::<S>(&corners::<S, V, T, N>(simd, block, farthest, group), zero);
@@ -345,14 +345,14 @@ fn first<S, V, T, const N: usize, const INSIDE: bool>(
     }
 }
 
-/// With the values at corners of three more faces: a byte a group, in which the least is
-/// certainly negative, and certainly positive.
+/// Adds the values at corners of three more faces, and returns a byte a group: where the least
+/// value is certainly negative, and where it is certainly positive.
 #[inline(always)]
-fn rest<S, V, T, const N: usize>(
+fn last_faces<S, V, T, const N: usize>(
     simd: S,
-    rows: &[Plane<T>; 3],
+    planes: &[Plane<T>; 3],
     block: &Block<T, 6>,
-    at: [Corner; 3],
+    corners: [Corner; 3],
     so_far: &[T; BLOCK],
     threshold: T,
 ) -> [[u8; BLOCK / 4]; 2]
@@ -361,7 +361,7 @@ where
     T: Real,
     V: SimdFloat<S, Element = T, Array = [T; N]>,
 {
-    let [a, b, c] = rows;
+    let [a, b, c] = planes;
     let [a, b, c] = [
         PlaneLanes::<V>::new(simd, a),
         PlaneLanes::<V>::new(simd, b),
@@ -372,9 +372,9 @@ where
     let [negative, positive] = &mut bytes;
     for group in 0..BLOCK / N {
         let least = V::from_slice(simd, &so_far[group * N..][..N])
-            .min(values::<S, V, T, N>(simd, &a, block, at[0], group))
-            .min(values::<S, V, T, N>(simd, &b, block, at[1], group))
-            .min(values::<S, V, T, N>(simd, &c, block, at[2], group));
+            .min(values::<S, V, T, N>(simd, &a, block, corners[0], group))
+            .min(values::<S, V, T, N>(simd, &b, block, corners[1], group))
+            .min(values::<S, V, T, N>(simd, &c, block, corners[2], group));
         negative[group] = least.simd_lt(-threshold).to_bitmask() as u8;
         positive[group] = least.simd_gt(threshold).to_bitmask() as u8;
     }

@@ -1,19 +1,22 @@
-//! What a batch says: bits, classes, or the numbers of what may be seen.
+//! A query's answers as bits.
 
-use super::block_driver::{BLOCK, BlockBits, Sink, WORD};
+use super::block_driver::{BlockBits, WORD};
+use super::output::Sink;
 use crate::cull::Containment;
-use crate::simd::compaction::PLACES;
 
-/// A bit for each volume of a batch: 64 a word, the first one lowest.
+/// The classes of many volumes as bits: 64 volumes a word, the first one lowest.
+///
+/// A volume that is neither outside nor inside is crossing.
 ///
 /// ```
-/// use frusta::{Aabb, Containment, Culler, EndRect, Frustum, Pose, Shape, batch::ContainmentMasks};
+/// use frusta::cull::ContainmentMasks;
+/// use frusta::{Aabb, Containment, Culler, EndRect, Frustum, Pose, Shape};
 /// # let near = EndRect::new(1.0, -1.0, 1.0, -1.0, 1.0);
 /// # let far = EndRect::new(3.0, -3.0, 3.0, -3.0, 3.0);
 /// # let frustum = Frustum::new(Pose::IDENTITY, Shape::Finite { near, far })?;
 /// let boxes = [Aabb::new([0.0_f32; 3], [0.5; 3]), Aabb::new([0.0; 3], [1.0, 1.0, 2.0])];
 /// let mut masks = ContainmentMasks::default();
-/// Culler::new(&frustum).mask_boxes(&boxes[..], &mut masks)?;
+/// Culler::new(&frustum).over(&boxes).masks(&mut masks)?;
 /// assert_eq!(masks.outside(), [0b01]);
 /// assert_eq!(masks.get(1), Some(Containment::Crossing));
 /// assert_eq!(masks.visible().collect::<Vec<_>>(), [1]);
@@ -27,31 +30,31 @@ pub struct ContainmentMasks {
 }
 
 impl ContainmentMasks {
-    /// How many volumes it tells of.
+    /// Number of volumes.
     #[must_use]
     pub fn len(&self) -> usize {
         self.len
     }
 
-    /// Whether it tells of none.
+    /// Whether there are no volumes.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.len == 0
     }
 
-    /// Set where a volume is outside. Bits beyond the last volume are not set.
+    /// The bits of the volumes that are outside. Bits beyond the last volume are 0.
     #[must_use]
     pub fn outside(&self) -> &[u64] {
         &self.outside
     }
 
-    /// Set where a volume is inside. Bits beyond the last volume are not set.
+    /// The bits of the volumes that are inside. Bits beyond the last volume are 0.
     #[must_use]
     pub fn inside(&self) -> &[u64] {
         &self.inside
     }
 
-    /// Of one volume.
+    /// The class of one volume; `None` beyond the last.
     #[must_use]
     pub fn get(&self, index: usize) -> Option<Containment> {
         let bit = |words: &[u64]| words[index / WORD] >> (index % WORD) & 1 != 0;
@@ -66,46 +69,28 @@ impl ContainmentMasks {
         })
     }
 
-    /// The numbers of the volumes that are not outside, in order.
+    /// The indices of the volumes that are not outside, in ascending order.
     pub fn visible(&self) -> impl Iterator<Item = usize> + '_ {
         let words = self.outside.iter().enumerate();
         words.flat_map(move |(k, outside)| {
             let count = WORD.min(self.len - k * WORD);
-            bits(visible(count, *outside)).map(move |bit| k * WORD + bit)
+            set_bits(visible(count, *outside)).map(move |bit| k * WORD + bit)
         })
     }
-}
 
-/// The bits of `count` volumes that are not outside.
-#[inline(always)]
-fn visible(count: usize, outside: u64) -> u64 {
-    !outside & (u64::MAX >> (WORD - count))
-}
-
-/// The numbers of a word's bits.
-#[inline(always)]
-fn bits(mut word: u64) -> impl Iterator<Item = usize> {
-    std::iter::from_fn(move || {
-        let bit = word.trailing_zeros() as usize;
-        word &= word.wrapping_sub(1);
-        (bit < WORD).then_some(bit)
-    })
-}
-
-impl ContainmentMasks {
-    /// Room for answers about so many volumes, each to be written.
-    pub(super) fn prepare(&mut self, len: usize) -> MaskWords<'_> {
+    /// Makes room for the answers about `len` volumes, each to be written.
+    pub(super) fn prepare(&mut self, len: usize) -> MaskBits<'_> {
         let words = len.div_ceil(WORD);
         self.len = len;
         self.outside.resize(words, 0);
         self.inside.resize(words, 0);
-        MaskWords {
+        MaskBits {
             outside: &mut self.outside,
             inside: &mut self.inside,
         }
     }
 
-    /// Forgets all.
+    /// Clears.
     pub(super) fn clear(&mut self) {
         self.len = 0;
         self.outside.clear();
@@ -113,115 +98,40 @@ impl ContainmentMasks {
     }
 }
 
-/// Words that are still to be written.
-pub(super) struct MaskWords<'a> {
+/// The bits of `count` volumes that are not outside.
+#[inline(always)]
+pub(super) fn visible(count: usize, outside: u64) -> u64 {
+    !outside & (u64::MAX >> (WORD - count))
+}
+
+/// The positions of the bits that are set, in ascending order.
+#[inline(always)]
+fn set_bits(mut word: u64) -> impl Iterator<Item = usize> {
+    std::iter::from_fn(move || {
+        let bit = word.trailing_zeros() as usize;
+        word &= word.wrapping_sub(1);
+        (bit < WORD).then_some(bit)
+    })
+}
+
+/// Writes masks; holds the words that are still to be written.
+pub(super) struct MaskBits<'a> {
     pub(super) outside: &'a mut [u64],
     pub(super) inside: &'a mut [u64],
 }
 
-impl Sink for MaskWords<'_> {
+impl Sink for MaskBits<'_> {
     const INSIDE: bool = true;
 
     #[inline(always)]
-    fn take(&mut self, _count: usize, word: BlockBits) {
+    fn take(&mut self, _count: usize, bits: BlockBits) {
         for (words, bits) in [
-            (&mut self.outside, word.outside),
-            (&mut self.inside, word.inside),
+            (&mut self.outside, bits.outside),
+            (&mut self.inside, bits.inside),
         ] {
             if let Some(first) = words.split_off_first_mut() {
                 *first = bits;
             }
         }
-    }
-}
-
-/// The classes for four bits each of outside and inside.
-const CLASSES: [[Containment; 4]; 256] = {
-    let mut all = [[Containment::Crossing; 4]; 256];
-    let mut i = 0;
-    while i < 1024 {
-        let (bits, lane) = (i / 4, i % 4);
-        if bits >> lane & 1 != 0 {
-            all[bits][lane] = Containment::Outside;
-        } else if bits >> (4 + lane) & 1 != 0 {
-            all[bits][lane] = Containment::Inside;
-        }
-        i += 1;
-    }
-    all
-};
-
-/// Classes that are still to be written.
-pub(super) struct Classes<'a>(pub(super) &'a mut [Containment]);
-
-impl Sink for Classes<'_> {
-    const INSIDE: bool = true;
-
-    #[inline(always)]
-    fn take(&mut self, count: usize, word: BlockBits) {
-        let mut classes = [[Containment::Crossing; 4]; WORD / 4];
-        for (i, four) in classes.iter_mut().enumerate() {
-            let nibble = |word: u64| (word >> (4 * i) & 15) as usize;
-            *four = CLASSES[nibble(word.outside) | nibble(word.inside) << 4];
-        }
-        if let Some(slots) = self.0.split_off_mut(..count) {
-            slots.copy_from_slice(&classes.as_flattened()[..count]);
-        }
-    }
-}
-
-/// The numbers of what is not outside.
-pub(super) struct Numbers<'a> {
-    list: &'a mut Vec<u32>,
-    /// The number of the next volume.
-    next: u32,
-    /// Numbers on their way to the list.
-    waiting: [u32; BLOCK + 8],
-    len: usize,
-}
-
-impl<'a> Numbers<'a> {
-    /// To the end of a list; the first volume has this number.
-    pub(super) fn new(list: &'a mut Vec<u32>, first: u32) -> Self {
-        Self {
-            list,
-            next: first,
-            waiting: [0; BLOCK + 8],
-            len: 0,
-        }
-    }
-}
-
-impl Sink for Numbers<'_> {
-    const INSIDE: bool = false;
-
-    /// A byte of bits at a time, without branches: what may be seen cannot be predicted.
-    #[inline(always)]
-    fn take(&mut self, count: usize, word: BlockBits) {
-        let visible = visible(count, word.outside);
-        if visible != 0 {
-            if self.len > BLOCK - WORD {
-                self.finish();
-            }
-            for (k, byte) in visible.to_le_bytes().into_iter().enumerate() {
-                let next = self.next.wrapping_add(8 * k as u32);
-                let places = &PLACES[usize::from(byte)];
-                let rest = self.waiting.get_mut(self.len..);
-                if let Some(slots) = rest.and_then(|rest| rest.first_chunk_mut::<8>()) {
-                    for (slot, place) in slots.iter_mut().zip(places) {
-                        *slot = next.wrapping_add(u32::from(*place));
-                    }
-                }
-                self.len += byte.count_ones() as usize;
-            }
-        }
-        self.next = self.next.wrapping_add(count as u32);
-    }
-
-    #[inline(always)]
-    fn finish(&mut self) {
-        self.list
-            .extend_from_slice(&self.waiting[..self.len.min(BLOCK)]);
-        self.len = 0;
     }
 }

@@ -1,21 +1,23 @@
-//! Large worlds: boxes in `f64`, asked about in `f32` relative to a place near them.
+//! Large worlds: boxes in `f64`, read in `f32` relative to an anchor near them.
 //!
 //! # Idea
-//! A double near the surface of the earth has nanometres, a single half a metre. Relative to
-//! an anchor, the eye or the middle of a tile, singles have more than enough. So numbers
-//! are converted once, `p - anchor` rounded to `f32`, and kernels read half of the bytes. What
-//! they leave open is asked of the doubles, so the answers are those of the doubles.
+//! Near the surface of the earth neighbouring values are a nanometre apart in `f64`, half a
+//! metre in `f32`. Relative to an anchor, such as the eye or the middle of a tile, `f32` is
+//! more than fine enough. So coordinates are converted once, `p - anchor` rounded to `f32`, and
+//! the kernel reads half of the bytes. What it leaves open is decided by the `f64` boxes, so all
+//! answers are theirs.
 //!
-//! # The error bound
-//! With u = 2^-24, a converted number is off by `1.01 u |p - anchor|`: the difference has an
-//! error of 2^-53 of it, the conversion of u. A half space's offset at the anchor, `n . anchor
-//! + d`, is formed exactly and rounded once. So a value is off by 1.01 u S more than in
-//! [`super::boxes`]: 6.02 S + 4.01 |d|, still below the threshold's 8 of each. Below the normal
-//! singles a conversion is off by 2^-150, far below what the threshold has for underflow. What
-//! is beyond the range of `f32` is infinite there, and so not settled in registers.
+//! # Error bound
+//! With u = 2^-24, a converted coordinate is off by `1.01 u |p - anchor|`: the difference has a
+//! relative error of 2^-53, the conversion of u. A half space's offset at the anchor,
+//! `n . anchor + d`, is formed exactly and rounded once. So a value is off by 1.01 u S more than
+//! in [`super::boxes`]: 6.02 S + 4.01 |d|, still below the threshold of 8 S + 8 |d|. Below the
+//! normal range of `f32` a conversion is off by 2^-150, far below what the threshold adds for
+//! underflow. Coordinates beyond the range of `f32` become infinite, and the kernel decides
+//! nothing about them.
 
-use super::block_driver::{self, Block, Words};
-use super::box_set::{BoxBlocks, BoxSet};
+use super::block_driver::{self, Block, BlockAnswers};
+use super::box_set::{BoxSet, Stored};
 use super::boxes::Boxes;
 use crate::cull::{Aabb, Culler, Volume, VolumeErrorAt};
 use crate::frustum::eval::planes::FacePlanes;
@@ -24,10 +26,12 @@ use fearless_simd::prelude::*;
 #[cfg(feature = "parallel")]
 use std::ops::Range;
 
-/// Boxes in `f64`, with their places relative to an anchor in `f32`.
+/// Boxes in `f64` that queries read in `f32`, relative to an anchor: the answers of `f64` in the
+/// time of `f32`.
 ///
 /// ```
-/// use frusta::{Aabb, Camera, Culler, Projection, batch::RelativeBoxes};
+/// use frusta::cull::RelativeBoxes;
+/// use frusta::{Aabb, Camera, Culler, Projection};
 /// // A screw on a table, somewhere on the earth.
 /// let eye = [4_200_000.0, 170_000.0, 4_780_000.25];
 /// let screw = [4_200_000.5, 170_000.0, 4_780_000.25];
@@ -43,7 +47,7 @@ use std::ops::Range;
 /// let beside = [screw[0], screw[1] + 0.01, screw[2]];
 /// let boxes = RelativeBoxes::new(eye, &[around(screw), around(beside)])?;
 /// let mut visible = Vec::new();
-/// Culler::new(&camera.frustum()?).visible_relative(&boxes, &mut visible);
+/// Culler::new(&camera.frustum()?).over(&boxes).visible(&mut visible)?;
 /// assert_eq!(visible, [0]);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
@@ -54,13 +58,13 @@ pub struct RelativeBoxes {
     exact: Vec<Aabb<f64>>,
 }
 
-/// What cannot be converted.
+/// Why boxes cannot be converted.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum RelativeError {
     /// The anchor is infinite or NaN.
     Anchor(NonFinite),
-    /// A box is none.
+    /// A box is invalid.
     Box(VolumeErrorAt),
 }
 
@@ -82,7 +86,7 @@ impl std::error::Error for RelativeError {
     }
 }
 
-/// Rounded to nearest; infinite beyond the range.
+/// `p - anchor`, rounded to nearest; infinite beyond the range.
 fn relative(p: Vec3<f64>, anchor: Vec3<f64>) -> [f32; 3] {
     Vec3::<f32>::from_f64(p - anchor).to_array()
 }
@@ -91,7 +95,7 @@ impl RelativeBoxes {
     /// Converts boxes.
     ///
     /// # Errors
-    /// An anchor that is not finite; the first box that is none, as [`Aabb::check`].
+    /// An anchor that is not finite; the first box that fails [`Aabb::check`].
     pub fn new(anchor: impl Into<Vec3<f64>>, boxes: &[Aabb<f64>]) -> Result<Self, RelativeError> {
         let mut all = Self {
             anchor: Vec3::default(),
@@ -109,7 +113,7 @@ impl RelativeBoxes {
     /// Converts all boxes again, relative to another anchor.
     ///
     /// # Errors
-    /// An anchor that is not finite; nothing is changed then.
+    /// An anchor that is not finite; nothing is then changed.
     pub fn move_to(&mut self, anchor: impl Into<Vec3<f64>>) -> Result<(), RelativeError> {
         let anchor = anchor.into();
         NonFinite::check(None, anchor).map_err(RelativeError::Anchor)?;
@@ -122,13 +126,13 @@ impl RelativeBoxes {
         Ok(())
     }
 
-    /// What places are relative to.
+    /// The point that `f32` coordinates are relative to.
     #[must_use]
     pub fn anchor(&self) -> Vec3<f64> {
         self.anchor
     }
 
-    /// The boxes.
+    /// The boxes, as they were given.
     #[must_use]
     pub fn boxes(&self) -> &[Aabb<f64>] {
         &self.exact
@@ -136,52 +140,36 @@ impl RelativeBoxes {
 }
 
 impl RelativeBoxes {
-    /// With a frustum's half spaces relative to the anchor.
-    pub(super) fn seen_by(&self, culler: &Culler) -> Seen<'_> {
-        Seen {
-            boxes: self,
-            rows: FacePlanes::relative_to(culler.half_spaces(), self.anchor),
+    /// Binds the boxes to a frustum, with its half spaces relative to the anchor.
+    pub(super) fn seen_by(&self, culler: &Culler) -> RelativeQuery<'_> {
+        RelativeQuery {
+            planes: FacePlanes::relative_to(culler.half_spaces(), self.anchor),
+            near: Stored::from(&self.near),
+            exact: &self.exact,
         }
     }
 }
 
-/// Boxes, and half spaces relative to their anchor.
-pub(super) struct Seen<'a> {
-    boxes: &'a RelativeBoxes,
-    rows: FacePlanes<f32>,
-}
-
-impl Seen<'_> {
-    pub(super) fn lot(&self) -> Volumes<'_> {
-        Volumes {
-            rows: &self.rows,
-            near: BoxBlocks::from(&self.boxes.near),
-            exact: &self.boxes.exact,
-        }
-    }
-}
-
-/// Some of the boxes.
-#[derive(Clone, Copy)]
-pub(super) struct Volumes<'a> {
-    pub(super) rows: &'a FacePlanes<f32>,
-    near: BoxBlocks<'a, f32>,
+/// Relative boxes, or a range of them, and half spaces relative to their anchor.
+pub struct RelativeQuery<'a> {
+    pub(super) planes: FacePlanes<f32>,
+    near: Stored<'a, f32>,
     exact: &'a [Aabb<f64>],
 }
 
 #[cfg(feature = "parallel")]
-impl Volumes<'_> {
-    /// Some of these.
+impl RelativeQuery<'_> {
+    /// A range of the boxes.
     pub(super) fn part(&self, range: Range<usize>) -> Self {
         Self {
-            rows: self.rows,
+            planes: self.planes.clone(),
             near: self.near.part(range.clone()),
             exact: &self.exact[range],
         }
     }
 }
 
-impl block_driver::Volumes<f32, 6> for Volumes<'_> {
+impl block_driver::Volumes<f32, 6> for RelativeQuery<'_> {
     fn len(&self) -> usize {
         self.exact.len()
     }
@@ -199,23 +187,23 @@ impl block_driver::Volumes<f32, 6> for Volumes<'_> {
         None
     }
 
-    /// All are in blocks.
+    /// Unused: all boxes are stored in blocks.
     #[inline(always)]
-    fn numbers(&self, _: usize) -> [f32; 6] {
+    fn components(&self, _: usize) -> [f32; 6] {
         [f32::NAN; 6]
     }
 
     #[inline(always)]
-    fn words<S, V, const N: usize, const INSIDE: bool>(
+    fn classify_block<S, V, const N: usize, const INSIDE: bool>(
         simd: S,
-        rows: &FacePlanes<f32>,
+        planes: &FacePlanes<f32>,
         block: &Block<f32, 6>,
         largest: Option<f32>,
-    ) -> Words
+    ) -> BlockAnswers
     where
         S: Simd,
         V: SimdFloat<S, Element = f32, Array = [f32; N]>,
     {
-        Boxes::<f32>::words::<S, V, N, INSIDE>(simd, rows, block, largest)
+        Boxes::<f32>::classify_block::<S, V, N, INSIDE>(simd, planes, block, largest)
     }
 }

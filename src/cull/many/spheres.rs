@@ -1,24 +1,26 @@
-//! SphereSeparation, a register of them at a time.
+//! The kernel for spheres, a register of them at a time.
 //!
 //! # Idea
-//! A face's function over a ball is its value at the middle, more or less the radius times
-//! the normal's length. Near and far have one normal. As with [`super::boxes`], the least
-//! over the faces decide, and no branch depends on a ball.
+//! The extremes of a face's function over a sphere are its value at the center plus and minus
+//! the radius times the normal's length. Near and far share a normal. As for
+//! [boxes](super::boxes), the least extremes over the faces decide, and no branch depends on a
+//! sphere.
 //!
-//! # The error bound
-//! In units of u, S >= |c_x| + |c_y| + |c_z|, |n_j| < 1 and so |n| < 1.74:
+//! # Error bound
+//! In units of u, with S >= |c_x| + |c_y| + |c_z| and |n_j| < 1, so |n| < 1.74:
 //! ```text
-//! middle     a number 1, the product 1, sums 3, the offset's own rounding    5.01 S, 4.01 |d|
-//! reach      the length 2, the product 1                                     5.22 r
-//! extreme    the sum 1                                                       S + |d| + 1.74 r
+//! center     component 1, product 1, sums 3; the offset's rounding    5.01 S + 4.01 |d|
+//! reach      length 2, product 1                                      5.22 r
+//! extreme    sum 1                                                    S + |d| + 1.74 r
 //! ```
-//! Below the threshold, 8 of S + r and of the largest |d|. S + r is three times the largest
-//! magnitude of a coordinate in the block and the largest radius.
+//! In all 6.01 S + 5.01 |d| + 6.96 r. The threshold is 8 (S + r) + 8 |d|, with the largest |d|;
+//! S + r is three times the largest magnitude of a coordinate in the block plus the largest
+//! radius.
 //!
-//! A block with NaN or a negative radius is settled one by one, which finds it; with an
-//! infinity S + r is infinite.
+//! A block with NaN or a negative radius is classified one by one, which finds the error; with
+//! an infinity S + r is infinite.
 
-use super::block_driver::{BLOCK, Block, BlockBits, Volumes, WORD, Words, load};
+use super::block_driver::{BLOCK, Block, BlockAnswers, BlockBits, Volumes, WORD, load};
 use crate::cull::{Sphere, Volume};
 use crate::frustum::eval::planes::{FacePlanes, Plane};
 use crate::math::{Real, Vec3};
@@ -26,22 +28,36 @@ use fearless_simd::prelude::*;
 #[cfg(feature = "parallel")]
 use std::ops::Range;
 
-/// SphereSeparation in four arrays, or in one.
-#[derive(Clone, Copy, Debug)]
-pub enum Spheres<'a, T> {
-    /// Structure of arrays: fastest.
-    Arrays(SphereArrays<'a, T>),
-    /// Array of structures.
-    Slice(&'a [Sphere<T>]),
-}
-
-/// SphereSeparation as four arrays of one length; of longer ones only the beginning counts.
+/// Spheres as four arrays (structure of arrays), a source of a query.
+///
+/// The shortest array determines the number of spheres; the rest of longer ones is ignored.
+///
+/// ```
+/// use frusta::cull::SphereArrays;
+/// use frusta::{Culler, EndRect, Frustum, Pose, Shape};
+/// # let near = EndRect::new(1.0, -1.0, 1.0, -1.0, 1.0);
+/// # let far = EndRect::new(3.0, -3.0, 3.0, -3.0, 3.0);
+/// # let frustum = Frustum::new(Pose::IDENTITY, Shape::Finite { near, far })?;
+/// let (zero, z, radius) = ([0.0; 2], [2.0, 5.0], [0.5, 1.0]);
+/// let spheres = SphereArrays { center: [&zero, &zero, &z], radius: &radius };
+/// let mut visible = Vec::new();
+/// Culler::new(&frustum).over(spheres).visible(&mut visible)?;
+/// assert_eq!(visible, [0]);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct SphereArrays<'a, T> {
-    /// x, y and z of each middle.
+    /// The x, y and z of each center.
     pub center: [&'a [T]; 3],
-    /// The radius of each.
+    /// The radius of each sphere.
     pub radius: &'a [T],
+}
+
+/// Spheres in one of two layouts.
+#[derive(Clone, Copy, Debug)]
+pub enum Spheres<'a, T> {
+    Arrays(SphereArrays<'a, T>),
+    Slice(&'a [Sphere<T>]),
 }
 
 impl<'a, T> From<SphereArrays<'a, T>> for Spheres<'a, T> {
@@ -62,10 +78,14 @@ impl<'a, T> From<&'a Vec<Sphere<T>>> for Spheres<'a, T> {
     }
 }
 
+impl<'a, T, const N: usize> From<&'a [Sphere<T>; N]> for Spheres<'a, T> {
+    fn from(spheres: &'a [Sphere<T>; N]) -> Self {
+        Spheres::Slice(spheres)
+    }
+}
+
 impl<T: Real> Spheres<'_, T> {
-    /// How many there are.
-    #[must_use]
-    pub fn len(&self) -> usize {
+    pub(super) fn len(&self) -> usize {
         match self {
             Spheres::Arrays(SphereArrays { center, radius }) => {
                 let all = center.iter().map(|a| a.len());
@@ -75,7 +95,7 @@ impl<T: Real> Spheres<'_, T> {
         }
     }
 
-    /// Some of them, of as many as there are.
+    /// A range of the spheres.
     #[cfg(feature = "parallel")]
     pub(super) fn part(&self, range: Range<usize>) -> Self {
         match *self {
@@ -87,15 +107,7 @@ impl<T: Real> Spheres<'_, T> {
         }
     }
 
-    /// Whether there is none.
-    #[must_use]
-    pub fn is_empty(&self) -> bool {
-        self.len() == 0
-    }
-
-    /// One of them.
-    #[must_use]
-    pub fn get(&self, index: usize) -> Option<Sphere<T>> {
+    pub(super) fn get(&self, index: usize) -> Option<Sphere<T>> {
         match self {
             Spheres::Arrays(SphereArrays { center, radius }) => {
                 let [x, y, z] = center.map(|a| a.get(index).copied());
@@ -133,38 +145,38 @@ impl<T: Real> Volumes<T, 4> for Spheres<'_, T> {
     }
 
     #[inline(always)]
-    fn numbers(&self, index: usize) -> [T; 4] {
+    fn components(&self, index: usize) -> [T; 4] {
         let Sphere { center, radius } = self.get(index).unwrap_or_default();
         [center.x, center.y, center.z, radius]
     }
 
     #[inline(always)]
-    fn words<S, V, const N: usize, const INSIDE: bool>(
+    fn classify_block<S, V, const N: usize, const INSIDE: bool>(
         simd: S,
-        rows: &FacePlanes<T>,
+        planes: &FacePlanes<T>,
         block: &Block<T, 4>,
         _: Option<T>,
-    ) -> Words
+    ) -> BlockAnswers
     where
         S: Simd,
         V: SimdFloat<S, Element = T, Array = [T; N]>,
     {
-        let threshold = threshold::<S, V, T, N>(simd, rows, block);
-        let mut words = [BlockBits::default(); BLOCK / WORD];
-        for (k, word) in words.iter_mut().enumerate() {
+        let threshold = threshold::<S, V, T, N>(simd, planes, block);
+        let mut answers = [BlockBits::default(); BLOCK / WORD];
+        for (k, bits) in answers.iter_mut().enumerate() {
             for group in 0..WORD / N {
-                let ball = ball::<S, V, T, N>(simd, block, k * (WORD / N) + group);
-                let masks = extremes::<S, V, T, INSIDE>(simd, rows, ball, threshold);
-                word.set::<N>(group * N, masks);
+                let sphere = sphere::<S, V, T, N>(simd, block, k * (WORD / N) + group);
+                let masks = extremes::<S, V, T, INSIDE>(simd, planes, sphere, threshold);
+                bits.set::<N>(group * N, masks);
             }
         }
-        words
+        answers
     }
 }
 
-/// The numbers of a group.
+/// The components of a group.
 #[inline(always)]
-fn ball<S, V, T, const N: usize>(simd: S, block: &Block<T, 4>, group: usize) -> [V; 4]
+fn sphere<S, V, T, const N: usize>(simd: S, block: &Block<T, 4>, group: usize) -> [V; 4]
 where
     S: Simd,
     V: SimdFloat<S, Element = T>,
@@ -177,9 +189,9 @@ where
     ]
 }
 
-/// The block's threshold: infinite if one of it is no ball.
+/// The block's threshold: infinite if a sphere of the block is invalid.
 #[inline(always)]
-fn threshold<S, V, T, const N: usize>(simd: S, rows: &FacePlanes<T>, block: &Block<T, 4>) -> T
+fn threshold<S, V, T, const N: usize>(simd: S, planes: &FacePlanes<T>, block: &Block<T, 4>) -> T
 where
     S: Simd,
     T: Real,
@@ -189,40 +201,40 @@ where
     let (mut most, mut radius) = (zero, zero);
     let mut valid = zero.simd_eq(zero);
     for group in 0..BLOCK / N {
-        let [x, y, z, r] = ball::<S, V, T, N>(simd, block, group);
+        let [x, y, z, r] = sphere::<S, V, T, N>(simd, block, group);
         most = most.max(x.abs().max(y.abs()).max(z.abs()));
         radius = radius.max(r);
-        // A maximum may forget what it was when it meets NaN.
+        // A maximum may lose its value when it meets NaN.
         valid &= r.simd_ge(zero) & x.simd_eq(x) & y.simd_eq(y) & z.simd_eq(z);
     }
     let size = most + most + most + radius;
     let largest = size.to_array().into_iter();
     let size = largest.fold(T::ZERO, |a, b| if b > a { b } else { a });
     let is_valid = valid.to_bitmask() == u64::MAX >> (64 - N);
-    rows.threshold(size, is_valid)
+    planes.threshold(size, is_valid)
 }
 
-/// The value at the middle, and the reach.
+/// The value at the center, and the reach.
 #[inline(always)]
-fn middle_and_reach<S, V, T>(simd: S, row: &Plane<T>, ball: &[V; 4]) -> [V; 2]
+fn center_and_reach<S, V, T>(simd: S, plane: &Plane<T>, sphere: &[V; 4]) -> [V; 2]
 where
     S: Simd,
     T: Real,
     V: SimdFloat<S, Element = T>,
 {
-    let all = |v: T| V::splat(simd, v);
-    let [x, y, z] = row.normal;
-    let sum = ball[2].mul_add(all(z), all(row.offset));
-    let sum = ball[1].mul_add(all(y), sum);
-    [ball[0].mul_add(all(x), sum), ball[3] * row.length]
+    let splat = |v: T| V::splat(simd, v);
+    let [x, y, z] = plane.normal;
+    let sum = sphere[2].mul_add(splat(z), splat(plane.offset));
+    let sum = sphere[1].mul_add(splat(y), sum);
+    [sphere[0].mul_add(splat(x), sum), sphere[3] * plane.length]
 }
 
-/// Bits of the balls that are certainly outside, certainly inside, and of a certain class.
+/// The bits of the spheres that are certainly outside, certainly inside, and of a certain class.
 #[inline(always)]
 fn extremes<S, V, T, const INSIDE: bool>(
     simd: S,
-    rows: &FacePlanes<T>,
-    ball: [V; 4],
+    planes: &FacePlanes<T>,
+    sphere: [V; 4],
     threshold: T,
 ) -> [u64; 3]
 where
@@ -232,27 +244,27 @@ where
 {
     let from_zero = Plane {
         offset: T::ZERO,
-        ..rows.near
+        ..planes.near
     };
-    let [along, reach] = middle_and_reach(simd, &from_zero, &ball);
-    let nearest = (along + rows.near.offset).min(V::splat(simd, rows.far) - along);
+    let [along, reach] = center_and_reach(simd, &from_zero, &sphere);
+    let nearest = (along + planes.near.offset).min(V::splat(simd, planes.far) - along);
     let (mut greatest, mut least) = (nearest + reach, nearest - reach);
-    for row in &rows.sides {
-        let [middle, reach] = middle_and_reach(simd, row, &ball);
-        greatest = greatest.min(middle + reach);
+    for plane in &planes.sides {
+        let [center, reach] = center_and_reach(simd, plane, &sphere);
+        greatest = greatest.min(center + reach);
         if INSIDE {
-            least = least.min(middle - reach);
+            least = least.min(center - reach);
         }
     }
     let outside = greatest.simd_lt(-threshold);
     let within = greatest.simd_gt(threshold);
     if INSIDE {
         let inside = within & least.simd_gt(threshold);
-        let settled = outside | inside | within & least.simd_lt(-threshold);
+        let decided = outside | inside | within & least.simd_lt(-threshold);
         [
             outside.to_bitmask(),
             inside.to_bitmask(),
-            settled.to_bitmask(),
+            decided.to_bitmask(),
         ]
     } else {
         [outside.to_bitmask(), 0, (outside | within).to_bitmask()]

@@ -1,15 +1,56 @@
-//! Batches against one volume at a time, at every vector width.
+//! Kernels compared with one volume at a time, at every vector width.
 
+use super::block_driver::{self, BlockDriver};
+use super::boxes::Boxes;
+use super::output::{Classes, Indices};
+use super::spheres::Spheres;
 use super::*;
 use crate::clip::Class;
-use crate::cull::{Aabb, Sphere, VolumeError};
-use crate::frustum::Frustum;
-use crate::frustum::eval::planes::FacePlanes;
-use crate::frustum::{Direction, EndRect, Shape};
-use crate::math::{Pose, Rect};
-use crate::math::{Segment, Vec3};
+use crate::clip::many::intervals::SegmentIntervals;
+use crate::cull::{Aabb, Containment, Culler, Sphere, Volume, VolumeCounts, VolumeError};
+use crate::frustum::{Direction, EndRect, Frustum, Shape};
+use crate::math::{PerReal, Pose, Real, Rect, Segment, Vec3};
 use crate::samples::{BLOCK, Family};
 use crate::simd::levels;
+
+/// The class of each volume by [`Culler::classify`].
+pub(in crate::cull) fn one_by_one<V: Copy + Into<Volume>>(
+    culler: &Culler,
+    volumes: &[V],
+) -> Vec<Containment> {
+    let class = |v: &V| culler.classify(*v).expect("a valid volume");
+    volumes.iter().map(class).collect()
+}
+
+/// The indices of the volumes that are not outside.
+pub(in crate::cull) fn visible(classes: &[Containment]) -> Vec<u32> {
+    (0_u32..)
+        .zip(classes)
+        .filter_map(|(i, class)| (*class != Containment::Outside).then_some(i))
+        .collect()
+}
+
+/// Points without a pattern, in and about a frustum from z = 1 to z = 3.
+pub(in crate::cull) fn points(count: usize) -> Vec<Vec3<f32>> {
+    let mut state = 88_172_645_463_325_252_u64;
+    let mut next = || {
+        state ^= state << 13;
+        state ^= state >> 7;
+        state ^= state << 17;
+        (state >> 40) as f32 / (1 << 22) as f32 - 2.0
+    };
+    (0..count)
+        .map(|_| Vec3::new(next(), next(), next() + 2.0))
+        .collect()
+}
+
+/// A frustum from z = 1 to z = 3.
+pub(in crate::cull) fn culler_to_3() -> Culler {
+    let near = EndRect::new(1.0, -1.0, 1.0, -1.0, 1.0);
+    let far = EndRect::new(3.0, -3.0, 3.0, -3.0, 3.0);
+    let shape = Shape::Finite { near, far };
+    Culler::new(&Frustum::new(Pose::IDENTITY, shape).unwrap())
+}
 
 /// Boxes between the ends of a family's segments, which are near faces, edges and corners.
 fn boxes<T: Real>(segments: &[Segment<T>]) -> Vec<Aabb<T>> {
@@ -21,15 +62,15 @@ fn boxes<T: Real>(segments: &[Segment<T>]) -> Vec<Aabb<T>> {
     all
 }
 
-/// SphereSeparation about one end that reach as far as the other in one coordinate.
+/// Spheres around one end that reach as far as the other end in one coordinate.
 fn spheres<T: Real>(segments: &[Segment<T>]) -> Vec<Sphere<T>> {
-    let ball = |s: &Segment<T>| Sphere::new(s.start, (s.end.z - s.start.z).abs());
+    let sphere = |s: &Segment<T>| Sphere::new(s.start, (s.end.z - s.start.z).abs());
     let finite = |s: &Sphere<T>| s.radius.is_finite();
-    segments.iter().map(ball).filter(finite).collect()
+    segments.iter().map(sphere).filter(finite).collect()
 }
 
-/// The segments of a scene, repeated from different places, so that every place in a register
-/// is taken by all.
+/// The segments of a scene, repeated from different offsets, so that each appears in every lane
+/// of a register.
 fn segments<T: Real>(family: Family, block: u64) -> (Frustum, Vec<Segment<T>>) {
     let scene = family.scene(7, block);
     let cases = block * BLOCK..(block + 1) * BLOCK;
@@ -38,62 +79,54 @@ fn segments<T: Real>(family: Family, block: u64) -> (Frustum, Vec<Segment<T>>) {
     (scene.frustum().clone(), many)
 }
 
-/// All three kinds of output of a lot are what single answers are, at every width.
+/// Every output of some volumes is that of single answers, at every vector width.
 macro_rules! comparison {
-    ($name:ident, $t:ident, $lot:ident, $kernel:ident, $item:ident, $rows:ident) => {
-        fn $name(culler: &Culler, lot: $lot<'_, $t>, volumes: &[$item<$t>]) {
-            let single = |v: &$item<$t>| culler.classify(*v).expect("a volume");
-            let expected: Vec<Containment> = volumes.iter().map(single).collect();
-            let seen = |(i, c): (usize, &Containment)| (*c != Containment::Outside).then_some(i);
-            let visible: Vec<usize> = expected.iter().enumerate().filter_map(seen).collect();
+    ($name:ident, $t:ident, $volumes:ident, $run:ident, $item:ident, $planes:ident) => {
+        fn $name(culler: &Culler, volumes: $volumes<'_, $t>, all: &[$item<$t>]) {
+            let expected = one_by_one(culler, all);
+            let visible = visible(&expected);
             for level in levels() {
                 let mut counts = VolumeCounts::default();
                 let (mut masks, mut classes, mut list) =
                     (ContainmentMasks::default(), Vec::new(), Vec::new());
-                let rows = culler.rows().$rows();
-                fn drive<'a>(
+                fn driver<'a>(
                     culler: &'a Culler,
-                    rows: &'a FacePlanes<$t>,
-                    lot: &'a $lot<'a, $t>,
+                    volumes: &'a $volumes<'a, $t>,
                     counts: &'a mut VolumeCounts,
-                ) -> BlockDriver<'a, $t, $lot<'a, $t>> {
+                ) -> BlockDriver<'a, $t, $volumes<'a, $t>> {
                     BlockDriver {
                         culler,
-                        rows,
-                        lot,
+                        planes: culler.face_planes().$planes(),
+                        volumes,
                         counts,
                     }
                 }
-                let to_masks = drive(culler, rows, &lot, &mut counts);
-                block_driver::$kernel(level, to_masks, &mut masks.prepare(volumes.len())).unwrap();
-                let to_classes = drive(culler, rows, &lot, &mut counts);
-                classes.resize(volumes.len(), Containment::Crossing);
-                block_driver::$kernel(level, to_classes, &mut Classes(&mut classes)).unwrap();
-                list.clear();
-                let numbers = &mut Numbers::new(&mut list, 0);
-                block_driver::$kernel(level, drive(culler, rows, &lot, &mut counts), numbers)
-                    .unwrap();
-                assert_eq!(classes.len(), expected.len());
+                let to_masks = driver(culler, &volumes, &mut counts);
+                block_driver::$run(level, to_masks, &mut masks.prepare(all.len())).unwrap();
+                let to_classes = driver(culler, &volumes, &mut counts);
+                classes.resize(all.len(), Containment::Crossing);
+                block_driver::$run(level, to_classes, &mut Classes(&mut classes)).unwrap();
+                let indices = &mut Indices::new(&mut list, 0);
+                block_driver::$run(level, driver(culler, &volumes, &mut counts), indices).unwrap();
                 for (i, (class, expected)) in classes.iter().zip(&expected).enumerate() {
-                    assert_eq!(class, expected, "{:?} {:?}", culler.frustum(), volumes[i]);
+                    assert_eq!(class, expected, "{:?} {:?}", culler.frustum(), all[i]);
                     assert_eq!(masks.get(i), Some(*expected));
                 }
                 assert_eq!(masks.get(expected.len()), None);
-                assert!(masks.visible().eq(visible.iter().copied()));
-                let list = list.iter().map(|&i: &u32| i as usize);
-                assert!(list.eq(visible.iter().copied()));
+                assert!(masks.visible().eq(visible.iter().map(|&i| i as usize)));
+                assert_eq!(list, visible);
             }
         }
     };
 }
 
-comparison!(box_singles_agree, f32, Boxes, singles, Aabb, single);
-comparison!(box_doubles_agree, f64, Boxes, doubles, Aabb, double);
-comparison!(ball_singles_agree, f32, Spheres, singles, Sphere, single);
-comparison!(ball_doubles_agree, f64, Spheres, doubles, Sphere, double);
+comparison!(compare_boxes_f32, f32, Boxes, run_f32, Aabb, single);
+comparison!(compare_boxes_f64, f64, Boxes, run_f64, Aabb, double);
+comparison!(compare_spheres_f32, f32, Spheres, run_f32, Sphere, single);
+comparison!(compare_spheres_f64, f64, Spheres, run_f64, Sphere, double);
 
-fn column<T: Copy, V>(volumes: &[V], number: impl Fn(&V) -> T) -> Vec<T> {
-    volumes.iter().map(number).collect()
+fn column<T: Copy, V>(volumes: &[V], component: impl Fn(&V) -> T) -> Vec<T> {
+    volumes.iter().map(component).collect()
 }
 
 /// All layouts of some boxes.
@@ -105,7 +138,7 @@ fn with_layouts<T: Real>(boxes: &[Aabb<T>], mut with: impl FnMut(Boxes<'_, T>)) 
         min: min.each_ref().map(Vec::as_slice),
         max: max.each_ref().map(Vec::as_slice),
     }));
-    // What is none is not let in.
+    // A set rejects invalid boxes.
     if let Ok(set) = BoxSet::new(boxes.iter().copied()) {
         with(Boxes::from(&set));
     }
@@ -117,22 +150,22 @@ fn boxes_are_classified_as_they_are_alone() {
         for block in 0..6 {
             let (frustum, segments) = segments::<f64>(*family, block);
             let (culler, all) = (Culler::new(&frustum), boxes(&segments));
-            with_layouts(&all, |lot| box_doubles_agree(&culler, lot, &all));
+            with_layouts(&all, |layout| compare_boxes_f64(&culler, layout, &all));
             if family.has_f32() {
                 let all = boxes(&self::segments::<f32>(*family, block).1);
-                with_layouts(&all, |lot| box_singles_agree(&culler, lot, &all));
+                with_layouts(&all, |layout| compare_boxes_f32(&culler, layout, &all));
             }
         }
     }
 }
 
 #[test]
-fn balls_are_classified_as_they_are_alone() {
+fn spheres_are_classified_as_they_are_alone() {
     for family in Family::ALL {
         for block in 0..6 {
             let (frustum, segments) = segments::<f64>(*family, block);
             let (culler, all) = (Culler::new(&frustum), spheres(&segments));
-            ball_doubles_agree(&culler, Spheres::from(&all), &all);
+            compare_spheres_f64(&culler, Spheres::from(&all), &all);
             if family.has_f32() {
                 let all = spheres(&self::segments::<f32>(*family, block).1);
                 let center = [0, 1, 2].map(|k| column(&all, |s| s.center[k]));
@@ -140,15 +173,10 @@ fn balls_are_classified_as_they_are_alone() {
                     center: center.each_ref().map(Vec::as_slice),
                     radius: &column(&all, |s| s.radius),
                 };
-                ball_singles_agree(&culler, arrays.into(), &all);
+                compare_spheres_f32(&culler, arrays.into(), &all);
             }
         }
     }
-}
-
-/// A frustum from z = 1 to z = 3.
-fn culler() -> Culler {
-    Culler::new(&Family::Random.scene(1, 0).frustum().clone())
 }
 
 #[test]
@@ -157,12 +185,13 @@ fn any_number_of_boxes() {
     let (culler, all) = (Culler::new(&frustum), boxes(&segments));
     for length in (0..140).chain(500..530).chain([1023, 1024, 1025]) {
         let some = &all[..length.min(all.len())];
-        with_layouts(some, |lot| box_singles_agree(&culler, lot, some));
+        with_layouts(some, |layout| compare_boxes_f32(&culler, layout, some));
     }
 }
 
 #[test]
-fn what_is_no_volume_is_named_and_nothing_is_left() {
+fn the_first_invalid_volume_is_returned_and_buffers_are_emptied() {
+    let culler = culler_to_3();
     let unit = Aabb::new([0.0_f32; 3], [1.0; 3]);
     let bad = [
         (Aabb::new([0.0, f32::NAN, 0.0], [1.0; 3]), "min.y = NaN"),
@@ -183,37 +212,45 @@ fn what_is_no_volume_is_named_and_nothing_is_left() {
         for index in [0, 7, 63, 64, 600, 1099] {
             let mut all = vec![unit; 1100];
             all[index] = bad;
-            with_layouts(&all, |lot| {
-                let (mut masks, mut classes, mut list) = Default::default();
-                culler()
-                    .classify_boxes(&[unit; 3][..], &mut classes)
-                    .unwrap();
-                let errors = [
-                    culler().mask_boxes(lot, &mut masks).unwrap_err(),
-                    culler().classify_boxes(lot, &mut classes).unwrap_err(),
-                    culler().visible_boxes(lot, &mut list).unwrap_err(),
-                ];
-                for error in errors {
-                    assert_eq!(error.index, index);
-                    assert!(error.to_string().contains(why), "{error}");
-                }
-                assert!(masks.is_empty() && masks.outside().is_empty());
-                assert!(classes.is_empty() && list.is_empty());
-            });
+            let min = [0, 1, 2].map(|k| column(&all, |b| b.min[k]));
+            let max = [0, 1, 2].map(|k| column(&all, |b| b.max[k]));
+            let arrays = BoxArrays {
+                min: min.each_ref().map(Vec::as_slice),
+                max: max.each_ref().map(Vec::as_slice),
+            };
+            let (mut masks, mut classes, mut list) = Default::default();
+            culler.over(&[unit; 3]).masks(&mut masks).unwrap();
+            culler.over(&[unit; 3]).classes(&mut classes).unwrap();
+            culler.over(&[unit; 3]).visible(&mut list).unwrap();
+            let errors = [
+                culler.over(&all).masks(&mut masks),
+                culler.over(arrays).masks(&mut masks),
+                culler.over(&all).classes(&mut classes),
+                culler.over(arrays).classes(&mut classes),
+                culler.over(&all).visible(&mut list),
+                culler.over(arrays).visible(&mut list),
+                BoxSet::new(all.iter().copied()).map(drop),
+            ];
+            for error in errors.map(Result::unwrap_err) {
+                assert_eq!(error.index, index);
+                assert!(error.to_string().contains(why), "{error}");
+            }
+            assert!(masks.is_empty() && masks.outside().is_empty());
+            assert!(classes.is_empty() && list.is_empty());
         }
     }
-    let mut balls = vec![Sphere::new([0.0_f64; 3], 1.0); 70];
-    balls[66].radius = -0.5;
-    let error = culler()
-        .classify_spheres(&balls, &mut Vec::new())
-        .unwrap_err();
+    let mut spheres = vec![Sphere::new([0.0_f64; 3], 1.0); 70];
+    spheres[66].radius = -0.5;
+    let query = culler.over(&spheres);
+    let error = query.classes(&mut Vec::new()).unwrap_err();
     assert_eq!(error.error, VolumeError::NegativeRadius { radius: -0.5 });
     assert_eq!(error.index, 66);
 }
 
-/// Most of an everyday scene is settled in registers: a batch is no loop over single calls.
+/// Most volumes of an everyday scene are decided in registers: a query is no loop over single
+/// calls.
 #[test]
-fn few_are_asked_for_one_by_one() {
+fn few_are_classified_one_by_one() {
     let frustum = Family::Random.scene(1, 0).frustum().clone();
     let culler = Culler::new(&frustum);
     let mut random = crate::samples::Random::new(&[11]);
@@ -224,25 +261,23 @@ fn few_are_asked_for_one_by_one() {
     };
     let boxes: Vec<Aabb<f32>> = (0..4096).map(cube).collect();
     let mut counts = VolumeCounts::default();
-    culler
-        .classes(&Boxes::from(&boxes), &mut Vec::new(), &mut counts)
-        .unwrap();
+    let query = culler.over(&boxes).counted(&mut counts);
+    query.classes(&mut Vec::new()).unwrap();
     assert_eq!(counts.filter_failures, 0, "beyond the filter in f64");
-    assert!(counts.unsettled < 16, "{}", counts.unsettled);
-    // And what touches is asked for.
+    assert!(counts.undecided < 16, "{}", counts.undecided);
+    // Boxes that touch are undecided.
     let near = frustum.corners().near[0];
     let touching = [Aabb::new(near, near); 40];
     let mut counts = VolumeCounts::default();
-    culler
-        .classes(&Boxes::from(&touching[..]), &mut Vec::new(), &mut counts)
-        .unwrap();
-    assert_eq!(counts.unsettled, 40);
+    let query = culler.over(&touching).counted(&mut counts);
+    query.classes(&mut Vec::new()).unwrap();
+    assert_eq!(counts.undecided, 40);
 }
 
-/// Millimetres on the earth, in a frustum of a hundredth of a radian, and 1e18 metres away: the
-/// doubles' answers, few of them from the doubles.
+/// Boxes of millimetres on the earth, and 1e18 metres away: the answers of `f64`, few of them
+/// decided in `f64`.
 #[test]
-fn relative_boxes_are_classified_as_their_doubles() {
+fn relative_boxes_are_classified_as_in_f64() {
     let mut random = crate::samples::Random::new(&[12]);
     for (at, size, anchored) in [(6.378e6, 1e-3, 1.0), (6.378e6, 1e-3, 5.0), (1e18, 1e4, 1e4)] {
         let eye = Vec3::new(0.6 * at, 0.64 * at, -0.48 * at);
@@ -272,14 +307,15 @@ fn relative_boxes_are_classified_as_their_doubles() {
         let anchor = eye + Vec3::new(anchored, -anchored, anchored);
         let relative = RelativeBoxes::new(anchor, &boxes).unwrap();
         let (mut classes, mut counts) = (Vec::new(), VolumeCounts::default());
-        culler.classify_relative_counted(&relative, &mut classes, &mut counts);
+        let query = culler.over(&relative).counted(&mut counts);
+        query.classes(&mut classes).unwrap();
         let mut seen = [0; 3];
         for (volume, class) in boxes.iter().zip(&classes) {
             assert_eq!(culler.classify(*volume), Ok(*class), "{volume:?}");
             seen[*class as usize] += 1;
         }
         assert!(seen.iter().all(|&n| n > 20), "{seen:?}");
-        assert!(counts.unsettled < 1000, "{}", counts.unsettled);
+        assert!(counts.undecided < 1000, "{}", counts.undecided);
     }
     let wrong = RelativeBoxes::new([0.0, f64::NAN, 0.0], &[]).unwrap_err();
     assert!(wrong.to_string().contains("anchor"), "{wrong}");
@@ -287,7 +323,7 @@ fn relative_boxes_are_classified_as_their_doubles() {
     assert!(RelativeBoxes::new([0.0; 3], &[empty]).is_err());
 }
 
-/// Found by fuzzing: where there is no far face one stood at 2^90, or 2^900 for doubles.
+/// Found by fuzzing: an infinite frustum had a far face at 2^90, or 2^900 in `f64`.
 #[test]
 fn an_infinite_frustum_ends_nowhere() {
     let near = EndRect::new(1.0, -1.0, 1.0, -1.0, 1.0);
@@ -302,9 +338,9 @@ fn an_infinite_frustum_ends_nowhere() {
         let boxes = [Aabb::new(at(0.0, 0.0, far / 2.0), at(0.0, 0.0, far)); 3];
         let spheres = [Sphere::new(at(0.0, 0.0, far), T::from_f64(far / 8.0)); 3];
         let mut classes = Vec::new();
-        culler.classify_boxes(&boxes[..], &mut classes).unwrap();
+        culler.over(&boxes).classes(&mut classes).unwrap();
         assert_eq!(classes, [Containment::Inside; 3]);
-        culler.classify_spheres(&spheres[..], &mut classes).unwrap();
+        culler.over(&spheres).classes(&mut classes).unwrap();
         assert_eq!(classes, [Containment::Inside; 3]);
         let segments = [Segment::new(at(0.0, 0.0, 0.0), at(0.0, 0.0, far)); 3];
         let mut intervals = SegmentIntervals::default();
@@ -321,10 +357,10 @@ fn an_infinite_frustum_ends_nowhere() {
     }
 }
 
-/// A maximum forgets an infinity when it meets NaN; the first ball that is none is told all the
+/// A maximum may lose an infinity when it meets NaN; the first invalid sphere is returned all the
 /// same.
 #[test]
-fn the_first_ball_that_is_none_is_told_when_nan_follows_infinity() {
+fn the_first_invalid_sphere_is_returned_when_nan_follows_infinity() {
     let axes = [[1.0, 2.0, 2.0], [2.0, 1.0, -2.0], [2.0, -2.0, 1.0]].map(Vec3::from);
     let pose = Pose {
         origin: Vec3::default(),
@@ -335,35 +371,31 @@ fn the_first_ball_that_is_none_is_told_when_nan_follows_infinity() {
     let culler = Culler::new(&Frustum::new(pose, Shape::Finite { near, far }).unwrap());
     let infinite = Sphere::new([f32::INFINITY, 0.0, 2.0], 1.0);
     let nan = Sphere::new([0.0, 0.0, f32::NAN], 1.0);
-    for apart in [1, 8, 16] {
+    for distance in [1, 8, 16] {
         let mut all = vec![Sphere::new([0.0, 0.0, 2.0], 0.5); 20];
-        (all[1], all[1 + apart]) = (infinite, nan);
-        let error = culler.classify_spheres(&all, &mut Vec::new()).unwrap_err();
-        assert_eq!(error.index, 1, "{apart}");
+        (all[1], all[1 + distance]) = (infinite, nan);
+        let error = culler.over(&all).classes(&mut Vec::new()).unwrap_err();
+        assert_eq!(error.index, 1, "{distance}");
     }
 }
 
-/// A box that was far away for a while leaves nothing behind.
+/// A box that was far away for a while leaves no trace in the largest magnitude.
 #[test]
-fn a_set_forgets_how_far_away_a_box_was() {
+fn a_replaced_box_no_longer_counts_for_the_largest_magnitude() {
     let at = |x: f32| Aabb::new([x, 0.1, 1.5], [x + 0.1, 0.2, 1.75]);
     let mut set = BoxSet::new((0..700).map(|i| at(0.01 * i as f32))).unwrap();
-    let near = EndRect::new(1.0, -1.0, 1.0, -1.0, 1.0);
-    let far = EndRect::new(3.0, -3.0, 3.0, -3.0, 3.0);
-    let shape = Shape::Finite { near, far };
-    let culler = Culler::new(&Frustum::new(Pose::IDENTITY, shape).unwrap());
-    let unsettled = |set: &BoxSet<f32>| {
+    let culler = culler_to_3();
+    let undecided = |set: &BoxSet<f32>| {
         let mut counts = VolumeCounts::default();
-        culler
-            .classify_boxes_counted(set, &mut Vec::new(), &mut counts)
-            .unwrap();
-        counts.unsettled
+        let query = culler.over(set).counted(&mut counts);
+        query.classes(&mut Vec::new()).unwrap();
+        counts.undecided
     };
-    let before = unsettled(&set);
+    let before = undecided(&set);
     let own = set.get(600).unwrap();
     set.set(600, at(1e30)).unwrap();
-    assert!(unsettled(&set) > 180);
+    assert!(undecided(&set) > 180);
     set.set(600, own).unwrap();
-    assert_eq!(unsettled(&set), before);
+    assert_eq!(undecided(&set), before);
     assert!(before < 5, "{before}");
 }

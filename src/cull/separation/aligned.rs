@@ -1,13 +1,13 @@
-//! Whether an axis-aligned box is apart from the frustum.
+//! The separating axis test of axis-aligned boxes.
 //!
 //! # Idea
-//! A box's edges are the world's axes, so all 26 axes are known before any
-//! box is: along each, the frustum's support is a half space that contains it. Of an edge
-//! of the frustum and an axis of the world it is one only if the edge bounds the
-//! frustum's shadow along that axis; so there are 24 of them, and six around the
-//! frustum's bounding box, less those that are the same or a face's. They are made once, exactly, when first asked for; a box is
-//! apart exactly if one of them has all of it outside. That is the test of faces again,
-//! with their filter, their stages and their corners (`half_space.rs`).
+//! Every box has the world's axes as its edges, so all 26 axes are the same for all boxes: along
+//! each, the frustum's support is a half space that contains the frustum. An edge of the frustum
+//! and an axis of the world give one only if the edge bounds the frustum's shadow along that
+//! axis; so there are at most 24 of these, and six of the frustum's bounding box, less duplicates
+//! and those of faces. They are computed once, exactly, on first use; a box is separate exactly
+//! if one of them has all of it outside. That is the test of faces again, with the same filter,
+//! stages and corners (`half_space.rs`).
 //!
 //! ```text
 //! for each axis j of the world, in the frame: u
@@ -15,8 +15,8 @@
 //!         n = u x w; if n . (x - v) has one sign over the frustum: the half space
 //!     for the other two axes' product n: the half spaces at the least and greatest n . x
 //! ```
-//! In the frame the frustum's vertices are its own numbers, so all of it is sums and products
-//! of doubles. A half space goes to the world by what it does to the axes:
+//! In the frame the frustum's vertices are its stored values, so everything is sums and products
+//! of `f64` values. A half space is taken to the world by its values on the axes:
 //! `n . A (p - o)` has the normal `(n . A e_k)`.
 
 use super::hull::Hull;
@@ -26,7 +26,7 @@ use crate::cull::volume::Aabb;
 use crate::exact::Number;
 use crate::frustum::Frustum;
 use crate::frustum::eval::exact_vec::{Dyadic, Dyadic3, cross, dot};
-use crate::frustum::eval::half_space::{HalfSpace, MOST, threshold};
+use crate::frustum::eval::half_space::{HalfSpace, OFFSET_LIMIT, threshold};
 use std::cmp::Ordering;
 use wide::f64x4;
 
@@ -36,7 +36,7 @@ fn images(frustum: &Frustum) -> [Dyadic3; 3] {
     [0, 1, 2].map(|k| axes.map(|a| Dyadic::from(a[k])))
 }
 
-/// The half space of a normal in the frame that a vertex bounds, in the world.
+/// The half space in the world of a normal in the frame and the vertex that bounds it.
 fn to_world(
     frustum: &Frustum,
     images: &[Dyadic3; 3],
@@ -46,14 +46,14 @@ fn to_world(
     let origin = frustum.pose().origin;
     let [x, y, z] = images.each_ref().map(|image| dot(normal, image));
     let mut offset = -&dot(normal, vertex);
-    for (number, o) in [&x, &y, &z].into_iter().zip(origin.to_array()) {
-        offset = &offset - &(number * &Dyadic::from(o));
+    for (component, o) in [&x, &y, &z].into_iter().zip(origin.to_array()) {
+        offset = &offset - &(component * &Dyadic::from(o));
     }
     HalfSpace::new([x, y, z, offset])
 }
 
-/// The half spaces that have an axis-aligned box outside of one of them if it is apart from
-/// the frustum, but for those of its faces.
+/// The half spaces of which at least one, or a face's, has an axis-aligned box outside if it is
+/// separate from the frustum.
 fn separators(frustum: &Frustum, hull: &Hull) -> Vec<HalfSpace> {
     let images = images(frustum);
     let mut all = Vec::new();
@@ -69,7 +69,8 @@ fn separators(frustum: &Frustum, hull: &Hull) -> Vec<HalfSpace> {
         for edge in &hull.edges {
             add(&cross(&images[j], &edge.along), edge.from);
         }
-        // The face of a box: at the first vertex that is least, and at the first greatest.
+        // A face of the box: at the first vertex with the least value, and the first with the
+        // greatest.
         let normal = cross(&images[(j + 1) % 3], &images[(j + 2) % 3]);
         let at = hull.points.iter().map(|p| dot(&normal, p));
         let at: Vec<Dyadic> = at.collect();
@@ -84,48 +85,49 @@ fn separators(frustum: &Frustum, hull: &Hull) -> Vec<HalfSpace> {
 
 /// Four half spaces side by side: normals and offsets, and the normals' magnitudes.
 #[derive(Clone, Debug)]
-struct Four {
-    numbers: [f64x4; 4],
+struct FourPlanes {
+    coefficients: [f64x4; 4],
     magnitudes: [f64x4; 3],
 }
 
-impl Four {
-    /// Where there are fewer, everything is inside of the others.
+impl FourPlanes {
+    /// If there are fewer than four, the others contain everything.
     fn new(some: &[HalfSpace]) -> Self {
-        let nothing = [0.0, 0.0, 0.0, MOST];
-        let rows = [0, 1, 2, 3].map(|i| some.get(i).map_or(nothing, HalfSpace::rounded));
-        let numbers = [0, 1, 2, 3].map(|k| f64x4::new(rows.map(|row| row[k])));
-        let [a, b, c, _] = numbers;
+        let everything = [0.0, 0.0, 0.0, OFFSET_LIMIT];
+        let planes = [0, 1, 2, 3].map(|i| some.get(i).map_or(everything, HalfSpace::rounded));
+        let coefficients = [0, 1, 2, 3].map(|k| f64x4::new(planes.map(|plane| plane[k])));
+        let [a, b, c, _] = coefficients;
         Self {
-            numbers,
+            coefficients,
             magnitudes: [a.abs(), b.abs(), c.abs()],
         }
     }
 
-    /// The least of a box's greatest values, as [`Extent::values`] has them.
+    /// The least over the half spaces of a box's greatest values, as by [`Extent::values`].
     #[inline(always)]
     fn least(&self, Centred { center, half }: &Centred) -> f64 {
-        let all = f64x4::splat;
-        let ([a, b, c, d], [x, y, z]) = (self.numbers, self.magnitudes);
-        let middle = (a * all(center.x) + b * all(center.y)) + (c * all(center.z) + d);
-        let reach = x * all(half.x) + y * all(half.y) + z * all(half.z);
+        let splat = f64x4::splat;
+        let ([a, b, c, d], [x, y, z]) = (self.coefficients, self.magnitudes);
+        let middle = (a * splat(center.x) + b * splat(center.y)) + (c * splat(center.z) + d);
+        let reach = x * splat(half.x) + y * splat(half.y) + z * splat(half.z);
         let [a, b, c, d] = (middle + reach).to_array();
         let less = |a: f64, b: f64| if b < a { b } else { a };
         less(less(a, b), less(c, d))
     }
 }
 
-/// What axis-aligned boxes need of a frustum.
+/// The separating half spaces of a frustum for axis-aligned boxes.
 #[derive(Clone, Debug)]
 pub(super) struct Aligned {
     separators: Box<[HalfSpace]>,
-    fours: Box<[Four]>,
+    /// The same, rounded.
+    fours: Box<[FourPlanes]>,
     /// The greatest of the thresholds' constant parts.
     constant: f64,
 }
 
 impl Aligned {
-    /// `faces` are held to before.
+    /// Half spaces of `faces` are left out: boxes were tested against these before.
     pub(super) fn new(frustum: &Frustum, faces: &[HalfSpace]) -> Self {
         let mut all: Vec<HalfSpace> = Vec::new();
         for half_space in separators(frustum, &Hull::new(frustum.shape())) {
@@ -135,14 +137,14 @@ impl Aligned {
         }
         let constants = all.iter().map(HalfSpace::constant);
         Self {
-            fours: all.chunks(4).map(Four::new).collect(),
+            fours: all.chunks(4).map(FourPlanes::new).collect(),
             constant: constants.fold(0.0, f64::max),
             separators: all.into(),
         }
     }
 
-    /// Of a box that is outside of no face.
-    pub(super) fn is_apart(&self, volume: &Aabb<f64>, counts: &mut VolumeCounts) -> bool {
+    /// Precondition: no face plane rejects the box.
+    pub(super) fn is_separate(&self, volume: &Aabb<f64>, counts: &mut VolumeCounts) -> bool {
         let middle = volume.middle();
         let size = Aabb::size(&middle);
         let threshold = threshold(size, self.constant);

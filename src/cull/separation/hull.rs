@@ -1,4 +1,4 @@
-//! A frustum in its frame as the hull of points and rays, where its vertices are its own numbers.
+//! A frustum as the hull of points and rays in its frame, where its vertices are stored values.
 
 use crate::exact::Number;
 use crate::frustum::Shape;
@@ -7,17 +7,17 @@ use crate::frustum::eval::exact_vec::{Dyadic, Dyadic3, cross, dot, exact};
 use crate::math::Vec3;
 use std::cmp::Ordering;
 
-/// An edge, some of them of no length.
+/// An edge, possibly of zero length.
 #[derive(Clone, Debug)]
 pub(super) struct Edge {
-    /// The numbers of its vertices; a ray has one.
+    /// The indices of its vertices; a ray has one.
     pub(super) from: usize,
     pub(super) to: Option<usize>,
-    /// Its direction, not zero.
+    /// Its direction, never zero.
     pub(super) along: Dyadic3,
 }
 
-/// A frustum's vertices, the directions in which it has no end, and its edges.
+/// A frustum's vertices, the directions in which it is infinite, and its edges.
 #[derive(Clone, Debug)]
 pub(super) struct Hull {
     pub(super) points: Vec<Dyadic3>,
@@ -57,7 +57,7 @@ impl Hull {
         hull
     }
 
-    /// The edges of the end whose first corner is this.
+    /// Adds the edges of the end whose first corner has this index.
     fn rim(&mut self, first: usize) {
         let (x, y) = ([1.0, 0.0, 0.0], [0.0, 1.0, 0.0]);
         for (i, along) in [x, y, x, y].into_iter().enumerate() {
@@ -69,8 +69,7 @@ impl Hull {
         }
     }
 
-    /// The sign that `n . x` minus its value at a point has over the frustum, if it has
-    /// only one.
+    /// The sign over the frustum of `n . x` minus its value at a point; `None` if there are two.
     pub(super) fn side(&self, normal: &Dyadic3, point: usize) -> Option<Ordering> {
         let at = dot(normal, &self.points[point]);
         let points = self.points.iter().map(|p| (&dot(normal, p) - &at).sign());
@@ -87,8 +86,8 @@ impl Hull {
         Some(side)
     }
 
-    /// Whether the values of `n . x` about `middle` up to `reach` are all less or all greater than
-    /// the frustum's.
+    /// Whether the range of `n . x` from `middle - reach` to `middle + reach` is disjoint from the
+    /// frustum's.
     pub(super) fn is_separated(&self, normal: &Dyadic3, middle: &Dyadic, reach: &Dyadic) -> bool {
         let has_ray = |wanted: Ordering| {
             let mut rays = self.rays.iter();
@@ -103,14 +102,14 @@ impl Hull {
     }
 }
 
-/// A point or a vector of the world in a frustum's frame.
+/// Takes points and vectors of the world to a frustum's frame.
 pub(super) struct ToFrame {
     axes: [Dyadic3; 3],
     origin: Dyadic3,
 }
 
 impl ToFrame {
-    /// By a pose.
+    /// From a pose.
     pub(super) fn new(axes: [Vec3<f64>; 3], origin: Vec3<f64>) -> Self {
         Self {
             axes: axes.map(exact),
@@ -132,7 +131,7 @@ impl ToFrame {
     }
 }
 
-/// Each pair's cross product.
+/// The cross product of each pair.
 pub(super) fn crosses([a, b, c]: &[Dyadic3; 3]) -> [Dyadic3; 3] {
     [cross(a, b), cross(b, c), cross(c, a)]
 }

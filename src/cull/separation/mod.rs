@@ -1,22 +1,22 @@
-//! Whether a volume that is outside of no face is apart from the frustum all the same, decided
-//! exactly: separating axes for boxes, feet of perpendiculars for balls.
+//! The separating axis test: whether a volume that no face plane rejects is separate from the
+//! frustum all the same, decided exactly. For spheres, feet of perpendiculars.
 //!
 //! # Source
-//! Gottschalk, Lin, Manocha, "OBBTree" (1996): two convex polyhedra are apart exactly if
-//! they are along the normal of a face of one of them or the cross product of two of
-//! their edges. That is Minkowski's sum: the difference of frustum and box is a polyhedron,
-//! closed and, as a frustum is never flat, with an inside; its faces' normals are these,
-//! and it holds the origin exactly if frustum and box meet. So flat boxes, edges and points
-//! need no case of their own, and neither does an infinite frustum, whose rays bound
-//! along which normals it reaches to infinity.
+//! Gottschalk, Lin, Manocha, "OBBTree" (1996): two convex polyhedra are separate exactly if
+//! they are so along the normal of a face of one of them or along the cross product of two of
+//! their edges. This follows from Minkowski's sum: the difference of frustum and box is a
+//! polyhedron, closed and, since a frustum is never flat, with an interior; its faces' normals
+//! are these, and it contains the origin exactly if frustum and box meet. So flat boxes, edges
+//! and points need no case of their own. Neither does an infinite frustum: its rays bound the
+//! normals along which it reaches to infinity.
 //!
 //! ```text
 //! hull        the frustum as points, rays and edges in its frame
-//! aligned     axis-aligned boxes: their axes are known before they are
+//! aligned     axis-aligned boxes, whose axes are the same for all of them
 //! oriented    oriented boxes
-//! ball        balls
+//! sphere      spheres
 //! ```
-//! What each needs of a frustum is made when first asked for.
+//! The data that each needs of a frustum is computed on first use.
 
 mod aligned;
 mod hull;
@@ -27,55 +27,55 @@ use super::support::with_extent;
 use super::volume::{Aabb, Obb, Sphere, Volume, VolumeError};
 use super::{Containment, Culler, VolumeCounts};
 use crate::frustum::Frustum;
-use crate::frustum::eval::half_space::HalfSpace;
+use crate::frustum::eval::half_space::{HalfSpace, exp2};
 use crate::math::Vec3;
 use aligned::Aligned;
 use oriented::Oriented;
 use sphere::SphereSeparation;
 use std::sync::OnceLock;
 
-/// Whether a product of six such numbers is within the range of doubles.
-fn ordinary(v: f64) -> bool {
-    /// 2^150.
-    const LARGE: f64 = 1.427_247_692_705_96e45;
+/// Whether a value is zero or so moderate that a product of six is within the range of `f64`.
+fn is_moderate(v: f64) -> bool {
+    const LARGE: f64 = exp2(150);
     v == 0.0 || (v.abs() < LARGE && v.abs() > 1.0 / LARGE)
 }
 
-/// What the exact test needs of a frustum.
+/// The data of a frustum that the exact test needs, computed on first use.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Separation {
     aligned: OnceLock<Aligned>,
     oriented: OnceLock<Oriented>,
-    balls: OnceLock<SphereSeparation>,
+    spheres: OnceLock<SphereSeparation>,
 }
 
-/// What is asked about.
-struct Asked<'a> {
+/// The frustum of a test.
+struct Context<'a> {
     frustum: &'a Frustum,
     half_spaces: &'a [HalfSpace],
-    apart: &'a Separation,
+    separation: &'a Separation,
 }
 
-/// A volume of which that can be known.
+/// A volume that can be tested.
 trait Separable {
-    /// One of its points, rounded or not.
+    /// A point of the volume.
     fn point(&self) -> Vec3<f64>;
 
-    fn is_apart(&self, asked: &Asked<'_>, counts: &mut VolumeCounts) -> bool;
+    /// Whether the volume is separate from the frustum. Precondition: no face plane rejects it.
+    fn is_separate(&self, context: &Context<'_>, counts: &mut VolumeCounts) -> bool;
 }
 
 impl Separable for Aabb<f64> {
-    /// A rounded middle is not beyond what it is the middle of.
+    /// A rounded middle is not beyond the ends of its range.
     fn point(&self) -> Vec3<f64> {
         (self.min + self.max) * 0.5
     }
 
-    fn is_apart(&self, asked: &Asked<'_>, counts: &mut VolumeCounts) -> bool {
-        let made = asked
-            .apart
+    fn is_separate(&self, context: &Context<'_>, counts: &mut VolumeCounts) -> bool {
+        let aligned = context
+            .separation
             .aligned
-            .get_or_init(|| Aligned::new(asked.frustum, asked.half_spaces));
-        made.is_apart(self, counts)
+            .get_or_init(|| Aligned::new(context.frustum, context.half_spaces));
+        aligned.is_separate(self, counts)
     }
 }
 
@@ -84,12 +84,12 @@ impl Separable for Obb<f64> {
         self.center
     }
 
-    fn is_apart(&self, asked: &Asked<'_>, counts: &mut VolumeCounts) -> bool {
-        let made = asked
-            .apart
+    fn is_separate(&self, context: &Context<'_>, counts: &mut VolumeCounts) -> bool {
+        let oriented = context
+            .separation
             .oriented
-            .get_or_init(|| Oriented::new(asked.frustum));
-        made.is_apart(self, counts)
+            .get_or_init(|| Oriented::new(context.frustum));
+        oriented.is_separate(self, counts)
     }
 }
 
@@ -98,21 +98,22 @@ impl Separable for Sphere<f64> {
         self.center
     }
 
-    fn is_apart(&self, asked: &Asked<'_>, counts: &mut VolumeCounts) -> bool {
-        let half_spaces = asked.half_spaces;
-        let make = || SphereSeparation::new(asked.frustum, half_spaces);
-        let made = asked.apart.balls.get_or_init(make);
-        made.is_apart(half_spaces, self, counts)
+    fn is_separate(&self, context: &Context<'_>, counts: &mut VolumeCounts) -> bool {
+        let half_spaces = context.half_spaces;
+        let make = || SphereSeparation::new(context.frustum, half_spaces);
+        let spheres = context.separation.spheres.get_or_init(make);
+        spheres.is_separate(half_spaces, self, counts)
     }
 }
 
 impl Culler {
-    /// How a volume lies to the frustum, exactly: `Crossing` only where they have a point in
+    /// Classifies a volume exactly: `Crossing` only where frustum and volume have a point in
     /// common and the frustum does not contain the volume.
     ///
-    /// Costs what [`Culler::classify`] does where that settles it, a few times that where it
-    /// says `Crossing` (tens of microseconds where rounding leaves it open, as where an oriented box
-    /// or a ball touches); some hundred microseconds more the first time.
+    /// Takes as long as [`Culler::classify`] where that returns `Outside` or `Inside`, and a few
+    /// times as long where it returns `Crossing`: tens of microseconds where rounding leaves the
+    /// answer open, as where an oriented box or a sphere touches. The first call takes some
+    /// hundred microseconds more.
     ///
     /// ```
     /// use frusta::{Aabb, Containment, Culler, EndRect, Frustum, Pose, Shape, Sphere};
@@ -120,31 +121,30 @@ impl Culler {
     /// # let far = EndRect::new(3.0, -3.0, 3.0, -3.0, 3.0);
     /// # let frustum = Frustum::new(Pose::IDENTITY, Shape::Finite { near, far })?;
     /// let culler = Culler::new(&frustum);
-    /// // Beyond the edge between right and far, outside of neither.
+    /// // Beyond the edge between right and far, outside neither of them.
     /// let beyond = Aabb::new([3.5, -9.0, 2.0], [9.0, 9.0, 9.0]);
     /// assert_eq!(culler.classify(beyond)?, Containment::Crossing);
     /// assert_eq!(culler.classify_exact(beyond)?, Containment::Outside);
     /// let touching = Aabb::new([3.0, -9.0, 2.0], [9.0, 9.0, 9.0]);
     /// assert_eq!(culler.classify_exact(touching)?, Containment::Crossing);
     /// // Beyond the same edge: four away along x, three along z.
-    /// let ball = |radius| Sphere::new([7.0, 0.0, 6.0], radius);
-    /// assert_eq!(culler.classify_exact(ball(5.0))?, Containment::Crossing);
-    /// assert_eq!(culler.classify_exact(ball(4.999_999_999))?, Containment::Outside);
+    /// let sphere = |radius| Sphere::new([7.0, 0.0, 6.0], radius);
+    /// assert_eq!(culler.classify_exact(sphere(5.0))?, Containment::Crossing);
+    /// assert_eq!(culler.classify_exact(sphere(4.999_999_999))?, Containment::Outside);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     ///
     /// # Errors
-    /// What [`Volume::check`] finds.
+    /// Those of [`Volume::check`].
     #[inline]
     pub fn classify_exact(&self, volume: impl Into<Volume>) -> Result<Containment, VolumeError> {
         self.classify_exact_counted(volume, &mut VolumeCounts::default())
     }
 
-    /// As [`Culler::classify_exact`], and adds what it needed to counts, and how many volumes
-    /// that are outside of no face it found to be outside.
+    /// As [`Culler::classify_exact`], and adds to `counts` how often each stage was needed.
     ///
     /// # Errors
-    /// What [`Volume::check`] finds.
+    /// Those of [`Volume::check`].
     #[inline]
     pub fn classify_exact_counted(
         &self,
@@ -155,25 +155,25 @@ impl Culler {
         volume.check()?;
         with_extent!(&volume, v => {
             let class = self.by_planes(v, counts);
-            if class == Containment::Crossing && self.is_apart(v, counts) {
+            if class == Containment::Crossing && self.is_separate(v, counts) {
                 return Ok(Containment::Outside);
             }
             Ok(class)
         })
     }
 
-    /// Of a volume that is outside of no face.
-    fn is_apart(&self, volume: &impl Separable, counts: &mut VolumeCounts) -> bool {
-        let asked = Asked {
+    /// Precondition: no face plane rejects the volume.
+    fn is_separate(&self, volume: &impl Separable, counts: &mut VolumeCounts) -> bool {
+        let context = Context {
             frustum: self.frustum(),
             half_spaces: self.half_spaces(),
-            apart: self.apart(),
+            separation: self.separation(),
         };
         // Most volumes that meet the frustum have their middle in it.
-        let is_apart =
-            !self.planes().certainly_have(volume.point()) && volume.is_apart(&asked, counts);
-        counts.asked += 1;
-        counts.false_accepts += u64::from(is_apart);
-        is_apart
+        let is_separate = !self.planes().certainly_contain(volume.point())
+            && volume.is_separate(&context, counts);
+        counts.exact_tests += 1;
+        counts.false_accepts += u64::from(is_separate);
+        is_separate
     }
 }

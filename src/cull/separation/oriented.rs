@@ -1,24 +1,25 @@
-//! Whether an oriented box is apart from the frustum.
+//! The separating axis test of oriented boxes.
 //!
-//! The axes that are left are cross products of the box's half axes, and of a half axis and an
-//! edge's direction, of which there are six: 21 axes. All is done in the frame, where the
-//! frustum's vertices are its own numbers: by doubles, and where these leave it open in integers.
+//! The axes besides the frustum's face normals are the cross products of the box's half axes, and
+//! those of a half axis and one of six edge directions: 21 axes. All is done in the frame, where
+//! the frustum's vertices are stored values: in `f64`, and where that leaves the answer open in
+//! integers.
 //!
-//! # The error bound
-//! With u = 2^-53 and A the pose's matrix, `A v` takes three roundings and a difference of the middle
-//! and the origin one: 4 u |A||v|. An edge's direction is rounded once, a cross product twice:
-//! a coordinate of an axis is off by at most 8 u N, with N what the cross product is of
-//! magnitudes. Along an axis a value takes three roundings more, a gap between two intervals five,
-//! so with M all magnitudes that a gap is a sum of it is off by
+//! # Error bound
+//! With u = 2^-53 and A the pose's matrix, `A v` takes three roundings, and the difference of
+//! center and origin one: 4 u |A||v|. An edge's direction is rounded once, a cross product twice:
+//! a coordinate of an axis is off by at most 8 u N, where N is the cross product of magnitudes,
+//! with sums for differences. Along an axis a value takes three roundings more, a gap between two
+//! intervals five. So if M is the sum of the magnitudes of all terms of a gap, the gap is off by
 //! ```text
 //! (8 + 4 + 3 + 5) u |N| M = 20 u |N| M
 //! ```
-//! and the threshold is 64 u |N| M. If N is zero the axis is, exactly. Of the numbers given none but
-//! zero is beyond 2^150 or 2^-150: no product overflows, and what underflow does is far below the
+//! and the threshold is 64 u |N| M. If N is zero the axis is exactly zero. Every input is zero or
+//! between 2^-150 and 2^150: no product overflows, and what underflow does is far below the
 //! threshold.
 
 use super::hull::{Hull, ToFrame, crosses};
-use super::ordinary;
+use super::is_moderate;
 use crate::cull::VolumeCounts;
 use crate::cull::volume::Obb;
 use crate::frustum::corners::ends;
@@ -26,40 +27,40 @@ use crate::frustum::eval::exact_vec::{Dyadic, Dyadic3, Rounded, cross, dot};
 use crate::frustum::{Frustum, Shape};
 use crate::math::{Real, Vec3};
 
-/// 64 u.
-const ROUNDING: f64 = 64.0 * f64::UNIT_ROUNDOFF;
+/// Bounds the error of a gap relative to |N| M: 64 u, where 20 u is needed.
+const GAP_RELATIVE_ERROR: f64 = 64.0 * f64::UNIT_ROUNDOFF;
 
-/// What oriented boxes need of a frustum.
+/// The data of a frustum that the test of oriented boxes needs.
 #[derive(Clone, Debug)]
 pub(super) struct Oriented {
     hull: Hull,
-    /// The pose.
+    /// Of the pose.
     axes: [Vec3<f64>; 3],
     origin: Vec3<f64>,
     /// Coordinates of the vertices in the frame; an infinite frustum has each twice.
     vertices: [[f64; 8]; 3],
-    /// Of an infinite frustum.
+    /// The directions in which the frustum is infinite.
     rays: Vec<Vec3<f64>>,
-    /// Of the edges: across, along, and from corner to corner.
+    /// The directions of the edges: of the ends' sides, then from near to far.
     directions: [Vec3<f64>; 6],
-    /// The largest coordinate of a vertex or a ray; `None` where doubles do not serve.
+    /// The largest coordinate of a vertex or a ray; `None` if one is not moderate.
     reach: Option<f64>,
 }
 
-/// How a box lies to the frustum along one axis.
+/// The position of a box relative to the frustum along one axis.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Along {
-    Separation,
+    Separate,
     Overlapping,
-    Unsure,
+    Undecided,
 }
 
-/// A box in the frame, and the magnitudes that its roundings are in proportion to.
+/// A box in the frame, and the magnitudes that its rounding errors are relative to.
 struct InFrame {
     middle: Vec3<f64>,
     half_axes: [Vec3<f64>; 3],
     magnitudes: [Vec3<f64>; 3],
-    /// Of all that a gap is a sum of.
+    /// The sum of the magnitudes of all terms of a gap.
     size: f64,
 }
 
@@ -71,7 +72,7 @@ fn sum(v: Vec3<f64>) -> f64 {
     v.x + v.y + v.z
 }
 
-/// The cross product of magnitudes: with sums for differences.
+/// The cross product of magnitudes, with sums for differences.
 fn cross_of_magnitudes(a: Vec3<f64>, b: Vec3<f64>) -> Vec3<f64> {
     Vec3::new(
         a.y * b.z + a.z * b.y,
@@ -83,7 +84,7 @@ fn cross_of_magnitudes(a: Vec3<f64>, b: Vec3<f64>) -> Vec3<f64> {
 impl Oriented {
     pub(super) fn new(frustum: &Frustum) -> Self {
         let shape = frustum.shape();
-        // They are doubles.
+        // Stored values: nothing is rounded.
         let rounded = |v: Dyadic3| Vec3::from(v.map(|x| x.to_f64()));
         let [near, other] = ends(shape).map(|corners| corners.map(rounded));
         let is_infinite = matches!(shape, Shape::Infinite { .. });
@@ -96,8 +97,8 @@ impl Oriented {
         let (x, y) = (Vec3::new(1.0, 0.0, 0.0), Vec3::new(0.0, 1.0, 0.0));
         let [a, b, c, d] = sides;
         let pose = frustum.pose();
-        let given = all.iter().chain(&other).chain(&pose.axes).chain(&sides);
-        let is_ordinary = given.flat_map(|v| v.to_array()).all(ordinary);
+        let inputs = all.iter().chain(&other).chain(&pose.axes).chain(&sides);
+        let are_moderate = inputs.flat_map(|v| v.to_array()).all(is_moderate);
         let reach = all.iter().chain(&other).flat_map(|v| v.to_array());
         Self {
             hull: Hull::new(shape),
@@ -106,33 +107,33 @@ impl Oriented {
             vertices: [0, 1, 2].map(|k| all.map(|v| v[k])),
             rays: if is_infinite { other.to_vec() } else { vec![] },
             directions: [x, y, a, b, c, d],
-            reach: is_ordinary.then(|| reach.fold(0.0, |a, b| b.abs().max(a))),
+            reach: are_moderate.then(|| reach.fold(0.0, |a, b| b.abs().max(a))),
         }
     }
 
-    /// Of a box that is outside of no face.
-    pub(super) fn is_apart(&self, volume: &Obb<f64>, counts: &mut VolumeCounts) -> bool {
-        match self.settle(volume) {
-            Some(is_apart) => is_apart,
+    /// Precondition: no face plane rejects the box.
+    pub(super) fn is_separate(&self, volume: &Obb<f64>, counts: &mut VolumeCounts) -> bool {
+        match self.is_separate_rounded(volume) {
+            Some(is_separate) => is_separate,
             None => {
                 counts.filter_failures += 1;
                 counts.integers += 1;
-                self.is_apart_exactly(volume)
+                self.is_separate_exactly(volume)
             }
         }
     }
 
+    /// A vector in the frame, and the magnitudes of its terms.
     fn turned(&self, v: Vec3<f64>) -> (Vec3<f64>, Vec3<f64>) {
-        let by = |turn: fn(Vec3<f64>) -> Vec3<f64>| {
-            Vec3::from(self.axes.map(|axis| turn(axis).dot(turn(v))))
-        };
-        (by(|v| v), by(magnitude))
+        let dots =
+            |of: fn(Vec3<f64>) -> Vec3<f64>| Vec3::from(self.axes.map(|axis| of(axis).dot(of(v))));
+        (dots(|v| v), dots(magnitude))
     }
 
     fn in_frame(&self, volume: &Obb<f64>) -> Option<InFrame> {
         let from_origin = volume.center - self.origin;
-        let numbers = volume.half_axes.iter().chain([&from_origin]);
-        if !numbers.flat_map(|v| v.to_array()).all(ordinary) {
+        let inputs = volume.half_axes.iter().chain([&from_origin]);
+        if !inputs.flat_map(|v| v.to_array()).all(is_moderate) {
             return None;
         }
         let (middle, mut size) = self.turned(from_origin);
@@ -148,25 +149,25 @@ impl Oriented {
         })
     }
 
-    /// What doubles say.
-    fn settle(&self, volume: &Obb<f64>) -> Option<bool> {
+    /// The answer in `f64`, if that is certain.
+    fn is_separate_rounded(&self, volume: &Obb<f64>) -> Option<bool> {
         let volume = &self.in_frame(volume)?;
         let (h, m) = (&volume.half_axes, &volume.magnitudes);
         let mut all_overlap = true;
-        let mut settles = |normal: Vec3<f64>, magnitude: Vec3<f64>, across: Option<usize>| {
+        let mut is_separated = |normal: Vec3<f64>, magnitude: Vec3<f64>, across: Option<usize>| {
             let along = self.along(volume, normal, sum(magnitude), across);
             all_overlap &= along == Along::Overlapping;
-            along == Along::Separation
+            along == Along::Separate
         };
         for (i, j) in [(0, 1), (1, 2), (2, 0)] {
-            if settles(h[i].cross(h[j]), cross_of_magnitudes(m[i], m[j]), None) {
+            if is_separated(h[i].cross(h[j]), cross_of_magnitudes(m[i], m[j]), None) {
                 return Some(true);
             }
         }
         for (i, direction) in self.directions.into_iter().enumerate() {
             for k in 0..3 {
                 let magnitude = cross_of_magnitudes(magnitude(direction), m[k]);
-                if settles(direction.cross(h[k]), magnitude, i.checked_sub(2)) {
+                if is_separated(direction.cross(h[k]), magnitude, i.checked_sub(2)) {
                     return Some(true);
                 }
             }
@@ -174,7 +175,8 @@ impl Oriented {
         all_overlap.then_some(false)
     }
 
-    /// Along a normal, which is across a ray by construction where that is told.
+    /// Compares the ranges along a normal. `across` is the ray that the normal is perpendicular to
+    /// by construction.
     fn along(
         &self,
         volume: &InFrame,
@@ -195,7 +197,7 @@ impl Oriented {
         let middle = normal.dot(volume.middle);
         let [a, b, c] = volume.half_axes.map(|h| normal.dot(h).abs());
         let reach = a + b + c;
-        let threshold = ROUNDING * magnitude * volume.size;
+        let threshold = GAP_RELATIVE_ERROR * magnitude * volume.size;
         let (below, above) = (least - (middle + reach), (middle - reach) - greatest);
         let sides = [
             (below, self.rays_rise(normal, threshold, across)),
@@ -206,14 +208,14 @@ impl Oriented {
             match rise {
                 _ if gap < -threshold => {}
                 Some(false) => {}
-                Some(true) if gap > threshold => return Along::Separation,
-                _ => result = Along::Unsure,
+                Some(true) if gap > threshold => return Along::Separate,
+                _ => result = Along::Undecided,
             }
         }
         result
     }
 
-    /// Whether no ray goes down along a normal, if that is certain.
+    /// Whether all rays rise along a normal, if that is certain.
     fn rays_rise(&self, normal: Vec3<f64>, threshold: f64, across: Option<usize>) -> Option<bool> {
         let rays = self.rays.iter().enumerate();
         let rises = rays
@@ -229,20 +231,20 @@ impl Oriented {
         }
     }
 
-    fn is_apart_exactly(&self, volume: &Obb<f64>) -> bool {
+    fn is_separate_exactly(&self, volume: &Obb<f64>) -> bool {
         let to_frame = ToFrame::new(self.axes, self.origin);
         let middle = to_frame.point(volume.center);
         let half_axes = volume.half_axes.map(|h| to_frame.vector(h));
-        let is_apart = |normal: &Dyadic3| {
+        let is_separate = |normal: &Dyadic3| {
             let reach = half_axes.iter().map(|h| dot(normal, h).abs());
             let reach = reach.fold(Dyadic::from(0.0), |a, b| &a + &b);
             let middle = dot(normal, &middle);
             self.hull.is_separated(normal, &middle, &reach)
         };
         let edges = self.hull.edges.iter();
-        crosses(&half_axes).iter().any(is_apart)
+        crosses(&half_axes).iter().any(is_separate)
             || edges
                 .flat_map(|edge| half_axes.iter().map(|h| cross(&edge.along, h)))
-                .any(|normal| is_apart(&normal))
+                .any(|normal| is_separate(&normal))
     }
 }

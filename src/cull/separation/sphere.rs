@@ -1,29 +1,29 @@
-//! Whether a ball is apart from the frustum.
+//! Whether a sphere is separate from the frustum.
 //!
-//! The point of the frustum that is nearest to the ball's middle is the middle itself, or in a face
-//! that has the middle strictly outside, in an edge, or a vertex; in a face or an edge it is the
-//! foot of the perpendicular. So the ball meets the frustum exactly if its middle is inside
-//! or one of these feet is in the frustum and close enough:
+//! The point of the frustum nearest to the sphere's center is the center itself, or lies in a face
+//! that has the center strictly outside, in an edge, or is a vertex; in a face or an edge it is the
+//! foot of the perpendicular. So the sphere meets the frustum exactly if its center is inside or one
+//! of these feet is in the frustum and close enough:
 //! ```text
 //! face i      the foot is in the frustum if g_j n_i.n_i - g_i n_i.n_j >= 0 for all faces j;
-//!             close enough, or the ball would be outside of the face
+//!             close enough, since the face plane does not reject the sphere
 //! edge        w = c - start, t = w.along: in the edge if 0 <= t <= along.along;
 //!             close if |w x along|^2 <= r^2 along.along
 //! vertex      close if w.w <= r^2
 //! ```
-//! with g_i the value of a face's half space at the middle. By doubles, and where these leave it
-//! open in integers, in which everything is multiplied by the determinant of the pose, over which
-//! vertices are in the world.
+//! where g_i is the value of a face's half space at the center. All is done in `f64`, and where that
+//! leaves the answer open in integers. There everything is multiplied by the determinant of the
+//! pose, which is the denominator of vertices in the world.
 //!
-//! # The error bounds
-//! With u = 2^-53, a vertex is rounded once, and so is a difference to it: its coordinates are off by
-//! at most `e = u (|start| + |w|)`. Each formula's terms are summed with their magnitudes, and the
-//! bound is more than one and a half times what its roundings add up to. Of the numbers given none
-//! but zero is beyond 2^150 or 2^-150: no product overflows, and what underflow does is far below
-//! the bounds.
+//! # Error bounds
+//! With u = 2^-53, a vertex is rounded once, and so is a difference to it: its coordinates are off
+//! by at most `e = u (|start| + |w|)`. The bound of a formula is relative to the sum of its terms'
+//! magnitudes, and more than one and a half times the sum of its rounding errors. Every input is
+//! zero or between 2^-150 and 2^150: no product overflows, and what underflow does is far below the
+//! bounds.
 
 use super::hull::{Edge, Hull};
-use super::ordinary;
+use super::is_moderate;
 use crate::cull::VolumeCounts;
 use crate::cull::volume::Sphere;
 use crate::exact::Number;
@@ -36,7 +36,7 @@ use std::cmp::Ordering;
 
 const U: f64 = f64::UNIT_ROUNDOFF;
 
-/// What balls need of a frustum.
+/// The data of a frustum that the test of spheres needs.
 #[derive(Clone, Debug)]
 pub(super) struct SphereSeparation {
     exact: Skeleton,
@@ -44,8 +44,8 @@ pub(super) struct SphereSeparation {
     products: Vec<[f64; 6]>,
     vertices: Vec<Vec3<f64>>,
     edges: Vec<RoundedEdge>,
-    /// Whether doubles serve.
-    is_ordinary: bool,
+    /// Whether all vertices and edges are moderate, so that `f64` can decide.
+    is_moderate: bool,
 }
 
 #[derive(Clone, Debug)]
@@ -60,7 +60,7 @@ struct RoundedEdge {
 struct Skeleton {
     determinant: Dyadic,
     vertices: Vec<Dyadic3>,
-    /// Where it starts, how it goes on, and whether it has an end.
+    /// Start, direction, and whether the edge has an end.
     edges: Vec<(Dyadic3, Dyadic3, bool)>,
     products: Vec<Vec<Dyadic>>,
 }
@@ -88,21 +88,24 @@ impl Skeleton {
         }
     }
 
-    /// Whether a ball is apart that is outside of no face.
-    fn is_apart(&self, half_spaces: &[HalfSpace], ball: &Sphere<f64>) -> bool {
-        let values: Vec<Dyadic> = half_spaces.iter().map(|h| h.integer(ball.center)).collect();
+    /// Precondition: no face plane rejects the sphere.
+    fn is_separate(&self, half_spaces: &[HalfSpace], sphere: &Sphere<f64>) -> bool {
+        let values: Vec<Dyadic> = half_spaces
+            .iter()
+            .map(|h| h.integer(sphere.center))
+            .collect();
         if values.iter().all(|v| v.sign() != Ordering::Less) {
             return false;
         }
-        let middle = exact(ball.center).map(|x| &x * &self.determinant);
-        let radius = &Dyadic::from(ball.radius) * &self.determinant;
+        let center = exact(sphere.center).map(|x| &x * &self.determinant);
+        let radius = &Dyadic::from(sphere.radius) * &self.determinant;
         let square = &radius * &radius;
         let has_vertex = |v: &Dyadic3| {
-            let w = [0, 1, 2].map(|k| &middle[k] - &v[k]);
+            let w = [0, 1, 2].map(|k| &center[k] - &v[k]);
             at_most(&dot(&w, &w), &square)
         };
         let has_edge = |(start, along, has_end): &(Dyadic3, Dyadic3, bool)| {
-            let w = [0, 1, 2].map(|k| &middle[k] - &start[k]);
+            let w = [0, 1, 2].map(|k| &center[k] - &start[k]);
             let (t, length) = (dot(&w, along), dot(along, along));
             let across = cross(&w, along);
             t.sign() != Ordering::Less
@@ -114,7 +117,7 @@ impl Skeleton {
             || self.edges.iter().any(has_edge))
     }
 
-    /// Whether the foot on a face that has the middle outside is in the frustum.
+    /// Whether the foot on a face that has the center outside is in the frustum.
     fn has_foot(&self, values: &[Dyadic]) -> bool {
         let is_in = |i: usize| {
             let (value, products) = (&values[i], &self.products[i]);
@@ -130,22 +133,22 @@ fn at_most(a: &Dyadic, b: &Dyadic) -> bool {
     (a - b).sign() != Ordering::Greater
 }
 
-/// Whether a foot is a point of the frustum in the ball.
+/// Whether a foot is a point of the frustum in the sphere.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Foot {
     Yes,
     No,
-    Unsure,
+    Undecided,
 }
 
-/// Whether `a <= b`, if their errors leave it certain.
+/// Whether `a <= b`, if that is certain with an error of the difference.
 fn is_at_most(a: f64, b: f64, error: f64) -> Foot {
     if a + error < b {
         Foot::Yes
     } else if a - error > b {
         Foot::No
     } else {
-        Foot::Unsure
+        Foot::Undecided
     }
 }
 
@@ -154,7 +157,7 @@ impl Foot {
         match (self, other) {
             (Foot::Yes, Foot::Yes) => Foot::Yes,
             (Foot::No, _) | (_, Foot::No) => Foot::No,
-            _ => Foot::Unsure,
+            _ => Foot::Undecided,
         }
     }
 }
@@ -173,16 +176,16 @@ impl SphereSeparation {
                 has_end: *has_end,
             });
         let edges: Vec<_> = edges.collect();
-        let products = exact.products.iter().map(|row| {
+        let products = exact.products.iter().map(|products| {
             let mut rounded = [0.0; 6];
-            for (to, product) in rounded.iter_mut().zip(row) {
+            for (to, product) in rounded.iter_mut().zip(products) {
                 *to = product.to_f64();
             }
             rounded
         });
-        let numbers = vertices.iter().chain(edges.iter().map(|e| &e.along));
+        let inputs = vertices.iter().chain(edges.iter().map(|e| &e.along));
         Self {
-            is_ordinary: numbers.flat_map(|v| v.to_array()).all(ordinary),
+            is_moderate: inputs.flat_map(|v| v.to_array()).all(is_moderate),
             products: products.collect(),
             vertices,
             edges,
@@ -190,55 +193,55 @@ impl SphereSeparation {
         }
     }
 
-    /// Of a ball that is outside of no face.
-    pub(super) fn is_apart(
+    /// Precondition: no face plane rejects the sphere.
+    pub(super) fn is_separate(
         &self,
         half_spaces: &[HalfSpace],
-        ball: &Sphere<f64>,
+        sphere: &Sphere<f64>,
         counts: &mut VolumeCounts,
     ) -> bool {
-        match self.settle(half_spaces, ball) {
-            Some(is_apart) => is_apart,
+        match self.is_separate_rounded(half_spaces, sphere) {
+            Some(is_separate) => is_separate,
             None => {
                 counts.filter_failures += 1;
                 counts.integers += 1;
-                self.exact.is_apart(half_spaces, ball)
+                self.exact.is_separate(half_spaces, sphere)
             }
         }
     }
 
-    /// What doubles say.
-    fn settle(&self, half_spaces: &[HalfSpace], ball: &Sphere<f64>) -> Option<bool> {
-        let [x, y, z] = ball.center.to_array();
-        if !self.is_ordinary || ![x, y, z, ball.radius].into_iter().all(ordinary) {
+    /// The answer in `f64`, if that is certain.
+    fn is_separate_rounded(&self, half_spaces: &[HalfSpace], sphere: &Sphere<f64>) -> Option<bool> {
+        let [x, y, z] = sphere.center.to_array();
+        if !self.is_moderate || ![x, y, z, sphere.radius].into_iter().all(is_moderate) {
             return None;
         }
-        let size = size(ball.center);
+        let size = size(sphere.center);
         let (mut values, mut errors) = ([0.0; 6], [0.0; 6]);
         for (i, half_space) in half_spaces.iter().enumerate().take(6) {
-            values[i] = value(half_space.rounded(), ball.center);
+            values[i] = value(half_space.rounded(), sphere.center);
             errors[i] = half_space.threshold(size);
         }
         let count = half_spaces.len().min(6);
-        // No foot tells of a middle that is inside of all.
+        // A center inside all faces has no foot.
         if (0..count).all(|i| values[i] > errors[i]) {
             return Some(false);
         }
         let faces = (0..count).map(|i| self.face(i, &values[..count], &errors));
-        let edges = self.edges.iter().map(|edge| edge.foot(ball));
-        let vertices = self.vertices.iter().map(|&v| vertex(v, ball));
-        let mut is_sure = true;
+        let edges = self.edges.iter().map(|edge| edge.foot(sphere));
+        let vertices = self.vertices.iter().map(|&v| vertex(v, sphere));
+        let mut is_certain = true;
         for foot in faces.chain(vertices).chain(edges) {
             match foot {
                 Foot::Yes => return Some(false),
                 Foot::No => {}
-                Foot::Unsure => is_sure = false,
+                Foot::Undecided => is_certain = false,
             }
         }
-        is_sure.then_some(true)
+        is_certain.then_some(true)
     }
 
-    /// The foot on a face, if that has the middle outside.
+    /// The foot on a face, if that has the center outside.
     fn face(&self, i: usize, values: &[f64], errors: &[f64; 6]) -> Foot {
         if values[i] > errors[i] {
             return Foot::No;
@@ -255,28 +258,29 @@ impl SphereSeparation {
     }
 }
 
-/// From a vertex to the middle, the sum of its coordinates' magnitudes, and what one of them is off.
-fn from(start: Vec3<f64>, ball: &Sphere<f64>) -> (Vec3<f64>, f64, f64) {
-    let w = ball.center - start;
+/// The vector from a vertex to the center, the sum of its coordinates' magnitudes, and the error
+/// bound of a coordinate.
+fn from(start: Vec3<f64>, sphere: &Sphere<f64>) -> (Vec3<f64>, f64, f64) {
+    let w = sphere.center - start;
     (w, size(w), 2.0 * U * (size(start) + 2.0 * size(w)))
 }
 
-fn vertex(v: Vec3<f64>, ball: &Sphere<f64>) -> Foot {
-    let (w, long, off) = from(v, ball);
-    let (distance, square) = (w.dot(w), ball.radius * ball.radius);
+fn vertex(v: Vec3<f64>, sphere: &Sphere<f64>) -> Foot {
+    let (w, long, off) = from(v, sphere);
+    let (distance, square) = (w.dot(w), sphere.radius * sphere.radius);
     let error = 2.0 * long * off + 3.0 * off * off + 8.0 * U * (distance + square);
     is_at_most(distance, square, error)
 }
 
 impl RoundedEdge {
-    fn foot(&self, ball: &Sphere<f64>) -> Foot {
-        let (w, long, off) = from(self.start, ball);
+    fn foot(&self, sphere: &Sphere<f64>) -> Foot {
+        let (w, long, off) = from(self.start, sphere);
         let across = w.cross(self.along);
         let along = size(self.along);
-        // What a coordinate of the product is off, and t.
+        // The error bound of a coordinate of the product, and of t.
         let off = along * (2.0 * off + 8.0 * U * long);
         let (t, length) = (w.dot(self.along), self.along.dot(self.along));
-        let (distance, reach) = (across.dot(across), ball.radius * ball.radius * length);
+        let (distance, reach) = (across.dot(across), sphere.radius * sphere.radius * length);
         let error =
             2.0 * size(across) * off + 3.0 * off * off + 8.0 * U * distance + 16.0 * U * reach;
         let mut foot = is_at_most(distance, reach, error).and(is_at_most(0.0, t, off));

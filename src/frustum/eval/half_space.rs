@@ -1,25 +1,24 @@
-//! A half space `n . p + d >= 0` that is known exactly, and its value at a point in
-//! stages, each of which hands on what it cannot settle.
+//! A face's half space `n . p + d >= 0`, known exactly, and the sign of its value at a point in
+//! stages: each stage hands on the signs that it cannot decide.
 //!
-//! # Exactly
-//! The four numbers are sums of products of a frustum's doubles, formed in integers,
-//! times a power of two that brings the largest of `|n_j|` into `1/2 <= |n_j| < 1`. So
-//! a sign, and where `n` points, is known without error, for any frustum.
+//! # Exact
+//! The four coefficients are sums of products of a frustum's `f64` values, formed in integers,
+//! times a power of two that brings the largest of `|n_j|` into `1/2 <= |n_j| < 1`. So a sign,
+//! and the direction of `n`, is known without error, for any frustum.
 //!
 //! # Rounded
-//! With u = 2^-53, S >= |p_x| + |p_y| + |p_z| and the four numbers rounded: a number
-//! has a relative error of u, a product adds u, each of two sums on its way adds u. What
-//! is multiplied is below 1, so
+//! With u = 2^-53, S >= |p_x| + |p_y| + |p_z| and the four coefficients rounded: a coefficient
+//! has a relative error of u, a product adds u, each of two sums after it adds u. `|n_j| < 1`, so
 //! ```text
 //! |g~ - g| <= 4.01 u S + 3.01 u |d|
 //! ```
-//! and the threshold is `T = 8 u S + 8 u |d| + FLOOR`: more than its own rounding takes,
-//! and FLOOR is more than underflow can do.
+//! and the threshold is `T = 8 u S + 8 u |d| + UNDERFLOW_ERROR`, which leaves room for its own
+//! rounding.
 //!
 //! # To 106 bits
-//! With a number as a sum of two doubles within u^2, a product adds 3 u^2, three sums
-//! of two doubles each add 3 u^2 (`exact/double_double.rs`): 13.1 u^2 S + 4.1 u^2 |d|. The
-//! threshold is 2^-51 of the other: 32 u^2 S + 32 u^2 |d| + 2^-51 FLOOR.
+//! With a coefficient as a sum of two `f64` values within u^2, a product adds 3 u^2, three
+//! double-double sums add 3 u^2 each (`exact/double_double.rs`): 13.1 u^2 S + 4.1 u^2 |d|. The
+//! threshold is 2^-51 of the rounded one: 32 u^2 S + 32 u^2 |d| + 2^-51 UNDERFLOW_ERROR.
 //!
 //! A comparison is written with `>`, so that NaN and infinity fail it.
 
@@ -33,16 +32,21 @@ use crate::frustum::{Face, Frustum};
 use crate::math::{Real, Vec3};
 use std::cmp::Ordering;
 
-/// 8 u.
-const ROUNDING: f64 = 8.0 * f64::UNIT_ROUNDOFF;
-/// From the rounded values' threshold to that of values of 106 bits: 2^-51.
-const PRECISE: f64 = 4.440892098500626e-16;
-/// About 2^-900: above what underflow does, below every size.
-const FLOOR: f64 = 1.183052186166774e-271;
-/// 2^900: below it nothing overflows on the way.
-pub(crate) const MOST: f64 = 8.452712498170644e270;
+/// 2^exponent, for a normal value.
+pub(crate) const fn exp2(exponent: i32) -> f64 {
+    f64::from_bits(((exponent + 1023) as u64) << 52)
+}
 
-/// What settled a sign that the rounded value left open.
+/// Bounds a rounded value's error relative to S and |d|: 8 u, where 4.01 u and 3.01 u are needed.
+const VALUE_RELATIVE_ERROR: f64 = 8.0 * f64::UNIT_ROUNDOFF;
+/// The threshold of values of 106 bits relative to that of rounded ones: 32 u^2 / 8 u = 4 u.
+const DOUBLE_DOUBLE_TO_ROUNDED: f64 = 4.0 * f64::UNIT_ROUNDOFF;
+/// Bounds what underflow does to a value: far above 2^-1074, far below every size.
+const UNDERFLOW_ERROR: f64 = exp2(-900);
+/// Bounds the offset: below it no intermediate value overflows while S is below it, too.
+pub(crate) const OFFSET_LIMIT: f64 = exp2(900);
+
+/// The stage that decided a sign that the rounded value left open.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Stage {
     DoubleDouble,
@@ -56,15 +60,15 @@ pub(crate) struct HalfSpace {
     exact: [Dyadic; 4],
     /// Whether the normal points towards larger coordinates.
     up: [bool; 3],
-    /// Rounded: normal and offset.
+    /// Normal and offset, rounded.
     high: [f64; 4],
-    /// What that rounding took, rounded.
+    /// The errors of that rounding, rounded.
     low: [f64; 4],
-    /// Whether the two sums are the numbers themselves, and fit expansions.
+    /// Whether `high + low` is exact, and fits expansions.
     expands: bool,
     length: f64,
-    /// The part of the threshold that does not depend on the point; infinite where
-    /// nothing is certain.
+    /// The part of the threshold that does not depend on the point; infinite where no rounded
+    /// value is certain.
     constant: f64,
 }
 
@@ -96,9 +100,9 @@ impl HalfSpace {
     }
 
     /// From a normal and an offset; `None` for the zero vector.
-    pub(crate) fn new(numbers: [Dyadic; 4]) -> Option<Self> {
-        let top = numbers[..3].iter().filter_map(Dyadic::top).max()?;
-        let exact = numbers.map(|n| n.shifted(-top));
+    pub(crate) fn new(coefficients: [Dyadic; 4]) -> Option<Self> {
+        let top = coefficients[..3].iter().filter_map(Dyadic::top).max()?;
+        let exact = coefficients.map(|n| n.shifted(-top));
         let one = Dyadic::from(1.0);
         let rounded = |n: &Dyadic| n.round_quotient::<f64>(&one);
         let high = exact.each_ref().map(rounded);
@@ -110,12 +114,12 @@ impl HalfSpace {
         let whole = |i: usize| (&rests[i] - &Dyadic::from(low[i])).sign().is_eq();
         let fits = high.iter().chain(&low).all(|&v| in_safe_range(v));
         let square = (0..3).fold(Dyadic::from(0.0), |sum, j| &sum + &(&exact[j] * &exact[j]));
-        let certain = high[3].abs() < MOST;
+        let certain = high[3].abs() < OFFSET_LIMIT;
         Some(Self {
             expands: fits && (0..4).all(whole),
             length: rounded(&square).sqrt(),
             constant: if certain {
-                ROUNDING * high[3].abs() + FLOOR
+                VALUE_RELATIVE_ERROR * high[3].abs() + UNDERFLOW_ERROR
             } else {
                 f64::INFINITY
             },
@@ -132,7 +136,7 @@ impl HalfSpace {
         self.high
     }
 
-    /// The length of the normal, within 2 u.
+    /// The length of the normal, with a relative error of at most 2 u.
     #[inline(always)]
     pub(crate) fn length(&self) -> f64 {
         self.length
@@ -149,18 +153,18 @@ impl HalfSpace {
         self.constant
     }
 
-    /// How far a value may be off at a size.
+    /// The error bound of a rounded value at a point of this [`size`].
     #[inline(always)]
     pub(crate) fn threshold(&self, size: f64) -> f64 {
         threshold(size, self.constant)
     }
 
-    /// The sign of the value at a point that the rounded value leaves open, and the stage that
-    /// settled it.
+    /// The sign of the value at a point where the rounded value leaves it open, and the stage
+    /// that decided it.
     #[cold]
     pub(crate) fn sign_beyond_filter(&self, p: Vec3<f64>) -> (Ordering, Stage) {
         let value = self.precise(p);
-        if value.abs() > PRECISE * self.threshold(size(p)) {
+        if value.abs() > DOUBLE_DOUBLE_TO_ROUNDED * self.threshold(size(p)) {
             return (value.total_cmp(&0.0), Stage::DoubleDouble);
         }
         if self.expands
@@ -172,20 +176,20 @@ impl HalfSpace {
         (self.integer(p).sign(), Stage::Integer)
     }
 
-    /// The value to 106 bits, its upper part.
+    /// The upper part of the value to 106 bits.
     fn precise(&self, p: Vec3<f64>) -> f64 {
-        let number = |i: usize| Dd::new(self.high[i], self.low[i]);
-        let [x, y, z] = [0, 1, 2].map(|j| number(j).mul_f64(p[j]));
-        x.add(y).add(z).add(number(3)).hi
+        let coefficient = |i: usize| Dd::new(self.high[i], self.low[i]);
+        let [x, y, z] = [0, 1, 2].map(|j| coefficient(j).mul_f64(p[j]));
+        x.add(y).add(z).add(coefficient(3)).hi
     }
 
     fn expansion(&self, p: Vec3<f64>) -> Result<Expansion, <Expansion as Number>::Overflow> {
-        let number =
+        let coefficient =
             |i: usize| Expansion::from_f64(self.low[i]).add(&Expansion::from_f64(self.high[i]));
-        let mut sum = number(3)?;
+        let mut sum = coefficient(3)?;
         for j in 0..3 {
             if p[j] != 0.0 {
-                sum = sum.add(&number(j)?.mul(&Expansion::from_f64(p[j]))?)?;
+                sum = sum.add(&coefficient(j)?.mul(&Expansion::from_f64(p[j]))?)?;
             }
         }
         Ok(sum)
@@ -208,7 +212,7 @@ impl HalfSpace {
         })
     }
 
-    /// Whether it is the same set of points, exactly.
+    /// Whether both are the same set of points, exactly.
     pub(crate) fn is_the_same(&self, other: &Self) -> bool {
         let (a, b) = (&self.exact, &other.exact);
         let k = (0..3).find(|&k| a[k].sign().is_ne()).unwrap_or(0);
@@ -229,17 +233,17 @@ impl HalfSpace {
     }
 }
 
-/// `n . p + d`, in the order of operations that the bound is for; of several half spaces, or of
-/// one.
+/// `n . p + d` of one half space or of one a lane, in the order of operations that the error bound
+/// holds for.
 #[inline(always)]
 pub(crate) fn value<F: Lanes>([a, b, c, d]: [F; 4], p: Vec3<f64>) -> F {
     (a * a.splat(p.x) + b * a.splat(p.y)) + (c * a.splat(p.z) + d)
 }
 
-/// How far a value may be off at a size.
+/// The error bound of a rounded value at a point of this [`size`].
 #[inline(always)]
 pub(crate) fn threshold(size: f64, constant: f64) -> f64 {
-    ROUNDING * size + constant
+    VALUE_RELATIVE_ERROR * size + constant
 }
 
 /// The sum of the coordinates' magnitudes.

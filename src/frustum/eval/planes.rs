@@ -1,26 +1,26 @@
-//! A frustum's half spaces in the scalar type of a batch.
+//! A frustum's face planes in the scalar type of many volumes or segments.
 //!
-//! The numbers of [`crate::frustum::eval::half_space`], all scaled so that the largest
-//! of a normal's is between 1/2 and 1, rounded to `T`. So one threshold does for all:
-//! with u the unit roundoff of `T`, a value is off by less than
-//! `8 u S + 8 u |d| + FLOOR` (see `batch/boxes.rs` and `batch/spheres.rs`).
+//! They are those of [`crate::frustum::eval::half_space`], scaled so that the largest component
+//! of a normal is between 1/2 and 1, rounded to `T`. So one threshold serves all faces: with u
+//! the unit roundoff of `T`, a value is off by less than `8 u S + 8 u |d|`, plus what underflow
+//! does (see `cull/many/boxes.rs` and `cull/many/spheres.rs`).
 
-use crate::frustum::eval::half_space::HalfSpace;
+use crate::frustum::eval::half_space::{HalfSpace, exp2};
 use crate::math::{PerReal, Real, Vec3};
 
 /// A half space `normal . p + offset >= 0`.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Plane<T> {
     pub(crate) normal: [T; 3],
-    /// Which of a box's six numbers, the least coordinates and the greatest, are those of the
-    /// corner farthest along the normal; and of the opposite one.
+    /// Which of a box's six components, the least coordinates and then the greatest, are the
+    /// coordinates of the corner farthest along the normal; and those of the opposite corner.
     pub(crate) corners: [[usize; 3]; 2],
     pub(crate) offset: T,
     /// The normal's length.
     pub(crate) length: T,
 }
 
-/// The half spaces of a frustum.
+/// The face planes of a frustum.
 #[derive(Clone, Debug)]
 pub(crate) struct FacePlanes<T> {
     /// The near face, and the far one's offset: its normal is the negative of the near
@@ -28,39 +28,38 @@ pub(crate) struct FacePlanes<T> {
     pub(crate) near: Plane<T>,
     pub(crate) far: T,
     pub(crate) sides: [Plane<T>; 4],
-    /// 8 u, what rounding errors are at most in proportion to sizes.
+    /// 8 u: bounds rounding errors relative to sizes.
     pub(crate) factor: T,
-    /// And what they are beside that; infinite where nothing is certain.
+    /// The part of the threshold that does not depend on sizes; infinite where no value is
+    /// certain.
     pub(crate) constant: T,
 }
 
-/// By whether the normal points towards larger coordinates.
+/// The farthest and the opposite corner, by whether the normal points towards larger coordinates.
 fn corners(up: [bool; 3]) -> [[usize; 3]; 2] {
     let farthest = [0, 1, 2].map(|axis| axis + 3 * usize::from(up[axis]));
     [farthest, farthest.map(|k| (k + 3) % 6)]
 }
 
-/// What underflow does to a value stays far below the first, and sums do not overflow
-/// before sizes do while an offset stays below the second.
+/// Bounds for underflow and for offsets: what underflow does to a value is far below the first,
+/// and while offsets are below the second no sum overflows before a size does.
 const fn range<T: Real>() -> (f64, f64) {
     if T::DIGITS == 24 {
-        // 2^-100, 2^90
-        (7.888609052210118e-31, 1.2379400392853803e27)
+        (exp2(-100), exp2(90))
     } else {
-        // 2^-900, 2^900
-        (1.183052186166774e-271, 8.452712498170644e270)
+        (exp2(-900), exp2(900))
     }
 }
 
 impl<T: Real> FacePlanes<T> {
-    /// How far values may be off at a size; infinite for a block with something wrong.
+    /// The error bound of values at a size; infinite for a block with an invalid volume.
     #[inline(always)]
     pub(crate) fn threshold(&self, size: T, is_valid: bool) -> T {
         let more = if is_valid { 0.0 } else { f64::INFINITY };
         self.factor * size + (self.constant + T::from_f64(more))
     }
 
-    /// The normal and the offset of a face, by number.
+    /// The normal and the offset of a face, by its index.
     #[inline(always)]
     pub(crate) fn face(&self, face: usize) -> ([T; 3], T) {
         let Plane { normal, offset, .. } = self.near;
@@ -79,13 +78,13 @@ impl<T: Real> FacePlanes<T> {
         Self::with_offsets(faces, |h| h.rounded()[3])
     }
 
-    /// For places relative to an anchor.
+    /// For coordinates relative to an anchor.
     pub(crate) fn relative_to(faces: &[HalfSpace], anchor: Vec3<f64>) -> Self {
         Self::with_offsets(faces, |h| h.value_rounded(anchor))
     }
 
     fn with_offsets(faces: &[HalfSpace], offset: impl Fn(&HalfSpace) -> f64) -> Self {
-        let row = |h: &HalfSpace| {
+        let plane = |h: &HalfSpace| {
             let [a, b, c, _] = h.rounded().map(T::from_f64);
             let d = T::from_f64(offset(h));
             Plane {
@@ -104,29 +103,32 @@ impl<T: Real> FacePlanes<T> {
         let offsets = faces.iter().map(|h| offset(h).abs());
         let largest = offsets.fold(0.0, f64::max);
         let u = T::UNIT_ROUNDOFF;
-        let (floor, most) = range::<T>();
+        let (underflow, largest_offset) = range::<T>();
         let (ends, sides) = faces.split_at(faces.len().saturating_sub(4));
-        let mut rows = [nothing; 4];
-        rows.iter_mut().zip(sides).for_each(|(r, h)| *r = row(h));
-        let constant = if largest < most && sides.len() == 4 {
+        let mut side_planes = [nothing; 4];
+        side_planes
+            .iter_mut()
+            .zip(sides)
+            .for_each(|(to, h)| *to = plane(h));
+        let constant = if largest < largest_offset && sides.len() == 4 {
             // Rounded up: the sum of two positive numbers is not less than half of it.
-            T::from_f64(8.0 * u * largest + floor).next_up()
+            T::from_f64(8.0 * u * largest + underflow).next_up()
         } else {
             T::from_f64(f64::INFINITY)
         };
         Self {
-            near: ends.first().map_or(nothing, row),
+            near: ends.first().map_or(nothing, plane),
             far: ends
                 .get(1)
-                .map_or(T::from_f64(f64::INFINITY), |h| row(h).offset),
-            sides: rows,
+                .map_or(T::from_f64(f64::INFINITY), |h| plane(h).offset),
+            sides: side_planes,
             factor: T::from_f64(8.0 * u),
             constant,
         }
     }
 }
 
-/// FacePlanes of both scalar types.
+/// The face planes in both scalar types.
 #[derive(Clone, Debug)]
 pub(crate) struct FacePlanesPair {
     single: FacePlanes<f32>,

@@ -1,4 +1,4 @@
-//! frusta on points and boxes: one a call, and in batches.
+//! frusta on points and boxes: one a call, and many a call.
 
 use super::GridBox;
 use crate::peer::{Contestant, Peer, Timed, Who};
@@ -6,11 +6,11 @@ use frusta::cull::{BoxArrays, BoxSet, ContainmentMasks};
 use frusta::{Aabb, Containment, Culler, Frustum, NonFinite, Vec3, VolumeError};
 use std::hint::black_box;
 
-/// `Frustum::contains`, for boxes of no size.
+/// `Frustum::contains`, for boxes of zero size.
 pub struct OursPoint(Frustum);
 
 impl OursPoint {
-    /// The frustum itself.
+    /// Tests against this frustum.
     pub fn new(frustum: &Frustum) -> Self {
         Self(frustum.clone())
     }
@@ -44,10 +44,10 @@ impl Peer for OursPoint {
     }
 }
 
-/// What boxes' times are compared with: one a call, and in batches.
+/// The function that times of boxes are compared with, one a call.
 pub const REFERENCE_BOX: &str = "Culler::classify";
-/// In batches.
-pub const REFERENCE_BOXES: &str = "Culler::visible_boxes, a set";
+/// The same, many a call.
+pub const REFERENCE_BOXES: &str = "Culler::over, visible in a set";
 
 /// `Culler::classify`, plane by plane, or `Culler::classify_exact`.
 pub struct OursBox {
@@ -56,7 +56,7 @@ pub struct OursBox {
 }
 
 impl OursBox {
-    /// The frustum itself; with separating axes, or by its planes alone.
+    /// Tests against this frustum, with separating axes or by its planes alone.
     pub fn new(frustum: &Frustum, exact: bool) -> Self {
         let culler = Culler::new(frustum);
         Self { culler, exact }
@@ -102,7 +102,7 @@ impl Peer for OursBox {
     }
 }
 
-/// Which batch.
+/// A source and an output of a query over many boxes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Batch {
     /// Classes as masks, from a structure of arrays.
@@ -113,11 +113,11 @@ pub enum Batch {
     ListOfBoxes,
     /// Classes as masks, of boxes that are kept.
     MasksOfSet,
-    /// A draw list, of boxes that are kept: as the others keep theirs, in types of their own.
+    /// A draw list, of boxes that are kept, as other libraries keep theirs.
     ListOfSet,
 }
 
-/// Batches of boxes, 4,096 a call into buffers that are used again.
+/// Queries over 4,096 boxes a call into buffers that are used again.
 pub struct OursBatch {
     culler: Culler,
     batch: Batch,
@@ -132,7 +132,7 @@ pub struct OursBatch {
 const PIECE: usize = 4096;
 
 impl OursBatch {
-    /// The frustum itself.
+    /// Queries against this frustum.
     pub fn new(frustum: &Frustum, batch: Batch) -> Self {
         Self {
             culler: Culler::new(frustum),
@@ -145,7 +145,7 @@ impl OursBatch {
         }
     }
 
-    /// Asks about some of what is loaded.
+    /// Runs a query over a range of the loaded boxes.
     fn piece(&mut self, from: usize, to: usize) -> Result<(), frusta::VolumeErrorAt> {
         let [a, b, c, d, e, f] = self.arrays.each_ref().map(|array| &array[from..to]);
         let arrays = BoxArrays {
@@ -153,19 +153,19 @@ impl OursBatch {
             max: [d, e, f],
         };
         match self.batch {
-            Batch::Masks => self.culler.mask_boxes(arrays, &mut self.masks),
-            Batch::List => self.culler.visible_boxes(arrays, &mut self.list),
+            Batch::Masks => self.culler.over(arrays).masks(&mut self.masks),
+            Batch::List => self.culler.over(arrays).visible(&mut self.list),
             Batch::ListOfBoxes => {
                 let boxes = &self.boxes[from..to];
-                self.culler.visible_boxes(boxes, &mut self.list)
+                self.culler.over(boxes).visible(&mut self.list)
             }
             Batch::MasksOfSet => {
                 let set = &self.sets[from / PIECE];
-                self.culler.mask_boxes(set, &mut self.masks)
+                self.culler.over(set).masks(&mut self.masks)
             }
             Batch::ListOfSet => {
                 let set = &self.sets[from / PIECE];
-                self.culler.visible_boxes(set, &mut self.list)
+                self.culler.over(set).visible(&mut self.list)
             }
         }
     }
@@ -183,11 +183,11 @@ impl Timed for OursBatch {
         Who {
             library: "frusta",
             function: match self.batch {
-                Batch::Masks => "Culler::mask_boxes, arrays",
-                Batch::MasksOfSet => "Culler::mask_boxes, a set",
+                Batch::Masks => "Culler::over, masks of arrays",
+                Batch::MasksOfSet => "Culler::over, masks of a set",
                 Batch::ListOfSet => REFERENCE_BOXES,
-                Batch::List => "Culler::visible_boxes, arrays",
-                Batch::ListOfBoxes => "Culler::visible_boxes, slice",
+                Batch::List => "Culler::over, visible in arrays",
+                Batch::ListOfBoxes => "Culler::over, visible in a slice",
             },
             scalar: "f32",
             note: "4,096 a call; outside and inside exact, conservative by design",
@@ -235,8 +235,8 @@ impl Contestant<GridBox> for OursBatch {
             .map(|some| BoxSet::new(some.iter().copied()).expect("boxes"))
             .collect();
         self.arrays = std::array::from_fn(|k| {
-            let number = |b: &GridBox| [b.min, b.max][k / 3][k % 3];
-            cases.iter().map(number).collect()
+            let component = |b: &GridBox| [b.min, b.max][k / 3][k % 3];
+            cases.iter().map(component).collect()
         });
     }
 }
