@@ -1,8 +1,7 @@
-//! Vector registers: their width, chosen at run time once for a slice; a half space in each lane;
+//! Vector registers: their width, chosen at run time once for a slice, and
 //! lists of indices from bits.
 
 pub(crate) mod compaction;
-pub(crate) mod plane_lanes;
 
 /// Runs code that is generic over the vector width. On x86 there are two widths, those of AVX2 and
 /// SSE2, or three with an expression for registers of AVX-512; SSE4.2's instructions are not used.

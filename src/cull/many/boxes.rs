@@ -35,7 +35,7 @@ use super::box_set::{BoxSet, Stored};
 use crate::cull::{Aabb, Volume};
 use crate::frustum::eval::planes::{FacePlanes, Plane};
 use crate::math::{Real, Vec3};
-use crate::simd::plane_lanes::PlaneLanes;
+use crate::frustum::eval::plane_lanes::PlaneLanes;
 use fearless_simd::prelude::*;
 #[cfg(feature = "parallel")]
 use std::ops::Range;

@@ -8,6 +8,7 @@
 //! plain       coefficients for plain arithmetic
 //! half_space  a face as an exact inequality n . p + d >= 0, with signs in stages
 //! planes      the faces' half spaces in a batch's scalar type
+//! plane_lanes the same in each lane of a register
 //! exact_vec   vectors of dyadic integers
 //! ```
 
@@ -16,5 +17,6 @@ pub(crate) mod exact_vec;
 pub(crate) mod filter;
 pub(crate) mod half_space;
 pub(crate) mod plain;
+pub(crate) mod plane_lanes;
 pub(crate) mod planes;
 pub(crate) mod precise;
