@@ -4,7 +4,8 @@
 
 use frusta::cull::BoxSet;
 use frusta::{Aabb, ClipSpace, Culler, ViewProjection};
-use glam::{Mat4, Vec3};
+use glam::camera::rh::{proj::directx::perspective_infinite_reverse, view::look_to_mat4};
+use glam::Vec3;
 
 /// Boxes along a street, which runs in -z: a house on each side every ten metres.
 fn street() -> Vec<Aabb<f32>> {
@@ -19,14 +20,14 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     // Boxes that are kept from frame to frame are checked once and culled fastest.
     let houses = BoxSet::new(street())?;
     // Depth 1 at the near face, 0 at infinity: the best use of a float depth buffer.
-    let projection = Mat4::perspective_infinite_reverse_rh(1.0, 16.0 / 9.0, 0.1);
+    let projection = perspective_infinite_reverse(1.0, 16.0 / 9.0, 0.1);
     let clip_space = ClipSpace::ZERO_TO_ONE.reversed();
 
     let mut visible = Vec::new();
     for frame in 0..5_u8 {
         let eye = Vec3::new(0.0, 1.7, -10.0 * f32::from(frame));
         let ahead = Vec3::new(f32::from(frame) * 0.2, 0.0, -1.0);
-        let view = Mat4::look_to_rh(eye, ahead, Vec3::Y);
+        let view = look_to_mat4(eye, ahead, Vec3::Y);
 
         let frustum = ViewProjection::from(projection * view)
             .frustum(clip_space)?
