@@ -36,7 +36,8 @@ impl Parts {
     ) -> Self {
         let ends = ends(segments);
         let [p, q] = ends.map(|end| quad.points(end));
-        let [entry, exit] = [false, true].map(|exit| crossed.map(|c| c.face(exit)));
+        let entry = crossed.map(|c| c.face(false));
+        let exit = crossed.map(|c| c.face(true));
         let entries = site(quad, filter, crossed, entry, &ends, false);
         let exits = site(quad, filter, crossed, exit, &ends, true);
         Parts {

@@ -16,14 +16,23 @@ pub(super) struct Queue<I> {
     len: usize,
 }
 
-impl<I: Copy + Default> Queue<I> {
-    pub(super) fn new() -> Self {
-        Self {
-            items: [I::default(); CAPACITY],
-            len: 0,
+/// Empty queues are constants, so that many are made with one `memset`.
+macro_rules! empty {
+    ($($item:ident)*) => {$(
+        impl Queue<$item> {
+            pub(super) const fn new() -> Self {
+                Self {
+                    items: [0; CAPACITY],
+                    len: 0,
+                }
+            }
         }
-    }
+    )*};
+}
 
+empty!(u16 u32);
+
+impl<I: Copy> Queue<I> {
     #[inline(always)]
     pub(super) fn clear(&mut self) {
         self.len = 0;
@@ -112,13 +121,13 @@ pub(super) struct Queues {
 }
 
 impl Queues {
-    pub(super) fn new() -> Self {
+    pub(super) const fn new() -> Self {
         Self {
-            inside: Queue::new(),
-            crossing: Queue::new(),
-            crossed: Queue::new(),
-            lattice: Queue::new(),
-            uncertain: Queue::new(),
+            inside: Queue::<u32>::new(),
+            crossing: Queue::<u32>::new(),
+            crossed: Queue::<u32>::new(),
+            lattice: Queue::<u32>::new(),
+            uncertain: Queue::<u32>::new(),
         }
     }
 

@@ -182,8 +182,8 @@ pub(super) struct ByFace {
 impl Default for ByFace {
     fn default() -> Self {
         Self {
-            entries: std::array::from_fn(|_| Queue::new()),
-            exits: std::array::from_fn(|_| Queue::new()),
+            entries: [const { Queue::<u16>::new() }; 6],
+            exits: [const { Queue::<u16>::new() }; 6],
         }
     }
 }

@@ -27,8 +27,8 @@ impl<T: Real> Undecided<T> {
             coordinates: [[T::ZERO; CAPACITY]; 6],
             t0: [T::ZERO; CAPACITY],
             t1: [T::ZERO; CAPACITY],
-            uncertain: Queue::new(),
-            indices: Queue::new(),
+            uncertain: Queue::<u16>::new(),
+            indices: Queue::<u16>::new(),
         }
     }
 
