@@ -3,7 +3,7 @@
 use clap::ValueEnum;
 use frusta::clip::LiangBarskyVariant;
 use frusta::{
-    CohenSutherland, CyrusBeck, Frustum, LiangBarsky, NonFinite, Real, Segment, SegmentClip,
+    CohenSutherland, CyrusBeck, Frustum, LiangBarsky, NonFiniteAt, Real, Segment, SegmentClip,
     SegmentClipper, SixPlanes, StageCounts, VwProjection,
 };
 
@@ -111,14 +111,15 @@ impl<T: Real> Engine<T> {
         self.arithmetic != frusta::Arithmetic::Plain
     }
 
-    /// Clips a segment.
-    #[inline]
+    /// Clips segments: `clips` is cleared, then gets a clip a segment. Adds to `stages`.
     pub(crate) fn clip(
         &self,
         frustum: &Frustum,
-        segment: &Segment<T>,
+        segments: &[Segment<T>],
+        clips: &mut Vec<SegmentClip<T>>,
         stages: &mut StageCounts,
-    ) -> Result<SegmentClip<T>, NonFinite> {
-        self.clipper.clip_segment_counted(frustum, segment, stages)
+    ) -> Result<(), NonFiniteAt> {
+        let clipper = &self.clipper;
+        clipper.clip_segments_counted(frustum, segments, clips, stages)
     }
 }

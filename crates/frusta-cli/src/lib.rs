@@ -1,16 +1,18 @@
-//! The command `frusta`, as a library: [`main`] runs it. The readers are public, so that they
-//! can be fuzzed.
+//! The command `frusta` as a library: [`main`] runs it, and [`io`] reads files.
+//!
+//! ```text
+//! clip/ samples/ replay/ report/ verify shell     a subcommand each; engine, pipeline, stats, view: for clip
+//! io/         readers and writers of files
+//! draw/       pictures
+//! failure     errors, in one line; terminal: the standard streams; manual: pages of `frusta man`
+//! ```
 
 mod clip;
 mod draw;
 mod engine;
 mod failure;
-mod frustum_file;
-mod input;
+pub mod io;
 mod manual;
-mod number;
-mod output;
-mod picture;
 mod pipeline;
 mod replay;
 mod report;
@@ -20,7 +22,8 @@ mod stats;
 mod terminal;
 mod verify;
 mod view;
-mod whole_file;
+
+pub use failure::Failure;
 
 use clap::{Parser, Subcommand};
 use std::process::ExitCode;
@@ -70,7 +73,7 @@ pub(crate) fn cores() -> usize {
 /// Runs the command line and returns its exit code.
 #[must_use]
 pub fn main() -> ExitCode {
-    whole_file::watch_for_interruption();
+    io::atomic_file::watch_for_interruption();
     let result = match Cli::parse().command {
         Command::Clip(args) => clip::run(&args).map(|()| ExitCode::SUCCESS),
         Command::Report(args) => report::run(&args),

@@ -121,7 +121,7 @@ fn distribute<J>(
     let mut turns = inputs.iter().cycle();
     let mut deal = |job| match turns.next().map(|input| input.send(job)) {
         Some(Ok(())) => Ok(()),
-        _ => Err(Failure::new("nobody takes the jobs")),
+        _ => Err(Failure::new("the workers have ended")),
     };
     if let Err(failure) = produce(&mut |job| deal(Ok(job))) {
         // Where nobody listens any more, a failure has been told already.

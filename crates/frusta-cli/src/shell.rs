@@ -3,9 +3,9 @@
 
 use crate::EXIT_CODES;
 use crate::failure::{Failure, quote};
+use crate::io::atomic_file::AtomicFile;
 use crate::manual;
 use crate::terminal::print;
-use crate::whole_file::WholeFile;
 use clap::{Args, Command, CommandFactory};
 use clap_complete::Shell;
 use std::path::PathBuf;
@@ -52,7 +52,7 @@ pub(crate) fn man(args: &ManArgs) -> Result<(), Failure> {
     collect(&program, &mut pages)?;
     std::fs::create_dir_all(folder).map_err(|e| Failure::in_file(folder, e))?;
     for (name, page) in &pages {
-        let mut file = WholeFile::create(&folder.join(name))?;
+        let mut file = AtomicFile::create(&folder.join(name))?;
         file.write(page.as_bytes())?;
         file.finish()?;
     }

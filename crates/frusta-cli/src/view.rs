@@ -2,9 +2,9 @@
 //! scene.
 
 use crate::failure::Failure;
-use crate::frustum_file;
-use crate::input::{Bounds, wgs84};
-use crate::number::{self, short};
+use crate::io::frustum_file;
+use crate::io::number::{self, short};
+use crate::io::{Bounds, wgs84};
 use clap::Args;
 use frusta::{Camera, Deviation, Frustum, FrustumError, Projection, Vec3};
 use std::fmt::{self, Display};

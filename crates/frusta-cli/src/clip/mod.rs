@@ -1,7 +1,7 @@
 //! `frusta clip`: the part of each of a file's segments that is in a frustum.
 //!
 //! ```text
-//! reader:  numbers of the scene's edges, rows of a CSV file as text, or segments, in chunks
+//! reader:  ranges of the scene's edges, rows of a CSV file as text, or segments, in chunks
 //! workers: edges to world coordinates, or rows to segments; clip; count; format
 //! writer:  the formatted chunks, in order
 //! ```
@@ -11,18 +11,17 @@ mod run;
 mod source;
 
 use crate::EXIT_CODES;
+use crate::draw::clip::{PictureArgs, Tracer, View};
 use crate::engine::{Accuracy, Algorithm, Arithmetic, Engine};
 use crate::failure::Failure;
-use crate::input::geojson::Positions;
-use crate::input::{self, EdgeChoice, Input};
-use crate::number::Scalar;
-use crate::output::{self, Kind, Writer};
-use crate::picture::{Canvas, PictureArgs, View};
+use crate::io::atomic_file::is_stream;
+use crate::io::number::Scalar;
+use crate::io::output::{self, Kind, Writer};
+use crate::io::{EdgeChoice, Format, Input, Positions, ReadOptions, format_parser};
 use crate::pipeline::start_by;
 use crate::stats::{Report, Times};
 use crate::terminal::{print, say};
 use crate::view::ViewArgs;
-use crate::whole_file::is_stream;
 use clap::{Args, ValueEnum};
 use frusta::Frustum;
 use help::{FORMATS, HELP_END};
@@ -41,8 +40,8 @@ pub(crate) struct ClipArgs {
     /// What to clip: .glb .gltf .obj .stl .ply .csv .geojson .geojsonl, or - for the standard input
     file: PathBuf,
     /// The file's format [default: by its name]
-    #[arg(long, value_name = "FORMAT")]
-    from: Option<input::Format>,
+    #[arg(long, value_name = "FORMAT", value_parser = format_parser())]
+    from: Option<&'static dyn Format>,
     /// Write the result: .csv (a row a segment), .obj .glb (lines), .svg .png (a picture), or - for the standard output
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
@@ -101,7 +100,7 @@ fn run_as<T: Scalar>(args: &ClipArgs) -> Result<(), Failure> {
     let kind = Kind::of(args.output.as_deref(), args.to)?;
     args.check(kind)?;
     let input = Input::new(&args.file, args.from)?;
-    let (name, format) = (input.name().display().to_string(), input.format.name());
+    let (name, format) = (input.name().display().to_string(), input.format().name());
     let threads = args.threads.map_or_else(crate::cores, usize::from);
     let pool = threads_of(threads)?;
     let source = pool.install(|| args.source(input))?;
@@ -109,7 +108,7 @@ fn run_as<T: Scalar>(args: &ClipArgs) -> Result<(), Failure> {
     let accuracy = args.accuracy.unwrap_or(Accuracy::Fast);
     let run = Run {
         engine: Engine::<T>::new(args.algorithm, args.arithmetic, accuracy),
-        output: output::Format::new(kind, &view.frustum, || args.canvas(&source, &view.frustum))?,
+        output: output::Format::new(kind, &view.frustum, || args.tracer(&source, &view.frustum))?,
         threads,
         source: &source,
         frustum: &view.frustum,
@@ -166,16 +165,17 @@ impl ClipArgs {
         } else {
             Positions::AsGiven
         };
-        Source::open(input, self.edges, positions)
+        let edges = self.edges;
+        Source::open(input, ReadOptions { edges, positions })
     }
 
-    fn canvas(&self, source: &Source, frustum: &Frustum) -> Result<Canvas, Failure> {
+    fn tracer(&self, source: &Source, frustum: &Frustum) -> Result<Tracer, Failure> {
         let options = self.pictures.options();
         let scene = match options.view {
             View::Outside if !source.is_piped() => Some(source.bounds()?),
             _ => None,
         };
-        Canvas::new(options, frustum, scene.as_ref())
+        Tracer::new(options, frustum, scene.as_ref())
     }
 
     /// The statistics; on the error stream where the output takes the other.

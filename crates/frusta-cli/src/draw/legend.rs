@@ -1,7 +1,7 @@
 //! What the strokes and marks mean, in a line.
 
-use super::canvas::{Canvas, Pen, Place, Type};
-use super::strand::Sizes;
+use super::canvas::{Canvas, Font, Pen, Place};
+use super::segment::Sizes;
 use frusta::Class;
 
 /// How wide a stroke is shown.
@@ -69,7 +69,7 @@ impl Row {
     }
 
     fn say(&mut self, canvas: &mut Canvas, text: &str) {
-        let font = Type {
+        let font = Font {
             size: self.size,
             bold: false,
             colour: canvas.palette.ink,

@@ -3,8 +3,8 @@
 
 use super::Subject;
 use super::canvas::{Canvas, Pen, Place};
+use super::segment::{self, Sizes};
 use super::spatial::{all_corners, corners};
-use super::strand::{self, Sizes};
 use frusta::samples::Solid;
 use frusta::{Segment, Vec3};
 
@@ -103,7 +103,7 @@ pub(crate) fn draw(canvas: &mut Canvas, frame: Frame, subject: &Subject<'_>, siz
     }
     let Segment { start: p, end: q } = subject.segment;
     let place = |t: f64| frame.place(p + (q - p) * t);
-    strand::draw(canvas, subject.clip, subject.shown, sizes, place);
+    segment::draw(canvas, subject.clip, subject.shown, sizes, place);
 }
 
 /// Low near, low far, high far, high near.

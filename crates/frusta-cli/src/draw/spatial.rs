@@ -4,7 +4,7 @@
 use super::Subject;
 use super::camera::Camera;
 use super::canvas::{Canvas, Pen, Place};
-use super::strand::{self, Sizes};
+use super::segment::{self, Sizes};
 use frusta::samples::{Feature, FeatureKind, Solid};
 use frusta::{FaceSet, Vec3};
 
@@ -33,7 +33,7 @@ pub(crate) fn draw(canvas: &mut Canvas, camera: &Camera, subject: &Subject<'_>, 
     if let Some([first, last]) = camera.before_eye(p, q) {
         let shown = [first.max(subject.shown[0]), last.min(subject.shown[1])];
         let place = |t: f64| camera.place(p + (q - p) * t);
-        strand::draw(canvas, subject.clip, shown, sizes, place);
+        segment::draw(canvas, subject.clip, shown, sizes, place);
     }
 }
 

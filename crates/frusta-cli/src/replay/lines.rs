@@ -2,7 +2,7 @@
 //! witnesses of a `report.json`.
 
 use crate::failure::{Failure, quote, shorten};
-use crate::input::{Lines, MARK};
+use crate::io::{Lines, MARK};
 use frusta_lab::{CaseLine, CaseLineError};
 use serde::Deserialize;
 use std::fs::File;
@@ -40,7 +40,7 @@ pub(super) fn read(inputs: &[String]) -> Result<Vec<Numbered>, Failure> {
         }
     }
     if cases.0.is_empty() {
-        return Err(Failure::new("there is no line in the input"));
+        return Err(Failure::new("the input has no line"));
     }
     Ok(cases.0)
 }
@@ -54,7 +54,7 @@ fn is_line(argument: &str) -> bool {
 /// Why an argument is no file; it may be meant as a line.
 fn unopened(argument: &str, why: &io::Error) -> Failure {
     if argument.trim().contains(char::is_whitespace) || argument.is_empty() {
-        let why = "is no file, and a line begins with f64 or f32";
+        let why = "is not a file, and a line begins with f64 or f32";
         Failure::new(format_args!("{} {why}", quote(argument)))
     } else {
         Failure::in_file(Path::new(&shorten(argument)), why)

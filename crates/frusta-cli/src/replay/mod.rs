@@ -15,8 +15,8 @@ mod lines;
 mod picture;
 mod text;
 
+use crate::draw::Theme;
 use crate::failure::Failure;
-use crate::picture::Theme;
 use crate::terminal::print;
 use answers::Replay;
 use clap::Args;
@@ -82,7 +82,7 @@ pub(crate) fn run(args: &ReplayArgs) -> Result<ExitCode, Failure> {
         let numbered = args.out.as_ref().map(|f| f.join(format!("{number}.svg")));
         if let Some(file) = args.output.as_ref().or(numbered.as_ref()) {
             let svg = picture::picture(&replay, &title, args.theme.palette(), true);
-            crate::picture::save(file, &svg)?;
+            crate::draw::save(file, &svg)?;
         }
         if args.json {
             // A case at a time: many are more than a memory holds.

@@ -2,8 +2,8 @@
 
 use super::answers::{Answer, Replay, letters};
 use super::decimal::{decimal, parameter};
-use crate::number::short;
-use crate::picture::wrapped;
+use crate::draw::wrapped;
+use crate::io::number::short;
 use frusta::oracle::OracleEnd;
 use frusta::{Class, EndRect, FaceSet, Shape, Vec3};
 use frusta_lab::{CaseSegment, SurveyAlgorithm, SurveyTier};

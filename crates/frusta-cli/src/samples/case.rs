@@ -7,7 +7,7 @@
 use super::labels;
 use crate::draw::Subject;
 use crate::failure::Failure;
-use crate::number::short;
+use crate::io::number::short;
 use frusta::math::hex;
 use frusta::oracle::round_nearest;
 use frusta::samples::{ExpectedPart, FrameSample, Placement, Solid};
@@ -29,7 +29,7 @@ impl Case {
         let part = match &sample.expected.part {
             Some(part) => Some(exact_part(&segment, part).ok_or_else(|| {
                 Failure::new(format_args!(
-                    "{}: no double equals its answer",
+                    "{}: no f64 equals its answer",
                     sample.name()
                 ))
             })?),

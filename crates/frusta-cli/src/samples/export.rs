@@ -4,10 +4,10 @@
 use super::case::Case;
 use super::choice;
 use crate::failure::Failure;
-use crate::number;
-use crate::output::csv;
+use crate::io::atomic_file::AtomicFile;
+use crate::io::number;
+use crate::io::output::csv;
 use crate::terminal::print;
-use crate::whole_file::WholeFile;
 use clap::{Args, ValueEnum};
 use frusta::Frustum;
 use frusta::samples::{Placement, Solid};
@@ -91,7 +91,7 @@ pub(super) fn run(args: &ExportArgs) -> Result<(), Failure> {
     files.push(("samples.json".to_owned(), json(&Value::from(all))));
     prepare(&args.folder, &files)?;
     for (name, content) in &files {
-        let mut file = WholeFile::create(&args.folder.join(name))?;
+        let mut file = AtomicFile::create(&args.folder.join(name))?;
         file.write(content)?;
         file.finish()?;
     }
@@ -147,7 +147,7 @@ fn prepare(folder: &Path, files: &[Content]) -> Result<(), Failure> {
             return Err(Failure::in_file(
                 folder,
                 format_args!(
-                    "holds {}, which is no file of this export; choose an empty folder",
+                    "holds {}, which is not a file of this export; choose an empty folder",
                     name.display()
                 ),
             ));

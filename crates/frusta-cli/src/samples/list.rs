@@ -4,7 +4,7 @@ use super::case::{Case, sets};
 use super::choice::Choice;
 use super::labels;
 use crate::failure::Failure;
-use crate::number::short;
+use crate::io::number::short;
 use crate::terminal::print;
 use clap::Args;
 use frusta::FaceSet;

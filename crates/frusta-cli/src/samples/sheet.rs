@@ -3,8 +3,8 @@
 use super::case::Case;
 use super::choice::Choice;
 use super::draw;
+use crate::draw::{Theme, save};
 use crate::failure::Failure;
-use crate::picture::{self, Theme};
 use crate::terminal::print;
 use clap::Args;
 use frusta::samples::Placement;
@@ -32,7 +32,7 @@ pub(super) fn run(args: &SheetArgs) -> Result<(), Failure> {
         .map(|sample| Case::new(sample, &placement))
         .collect::<Result<_, _>>()?;
     let sheet = draw::sheet(solid, &cases, args.theme.palette());
-    picture::save(&args.output, &sheet)?;
+    save(&args.output, &sheet)?;
     print(&format!(
         "{} samples in {}\n",
         cases.len(),

@@ -4,9 +4,9 @@ use super::case::{Case, point, sets};
 use super::choice;
 use super::draw;
 use super::labels;
+use crate::draw::{Theme, save};
 use crate::failure::Failure;
-use crate::number::short;
-use crate::picture::{self, Theme};
+use crate::io::number::short;
 use crate::terminal::print;
 use clap::Args;
 use frusta::math::hex::Hex;
@@ -49,7 +49,7 @@ pub(super) fn run(args: &ShowArgs) -> Result<ExitCode, Failure> {
     let found = frustum.clip_segment(&case.segment).map_err(Failure::new)?;
     if let Some(file) = &args.output {
         let page = draw::page(&args.solid, &frustum, &case, args.theme.palette());
-        picture::save(file, &page)?;
+        save(file, &page)?;
     }
     print(&if args.json {
         let mut object = case.to_json(&args.solid, "identity", &frustum);

@@ -68,11 +68,11 @@ impl Scene {
 
     /// What of the segment is near the frustum, and the truth about that; `None` if
     /// nothing is.
-    pub(super) fn strand(&self, replay: &Replay) -> Option<Strand> {
+    pub(super) fn near_piece(&self, replay: &Replay) -> Option<NearPiece> {
         let [a, b] = &self.ends;
         let range = self.near(a, b)?;
         let segment = range.each_ref().map(|t| self.place(&between(a, b, t)));
-        Some(Strand {
+        Some(NearPiece {
             segment: Segment::new(segment[0], segment[1]),
             clip: truth_within(replay, &range),
             shown: shown(&range),
@@ -81,7 +81,7 @@ impl Scene {
 }
 
 /// A piece of the segment, to be drawn.
-pub(super) struct Strand {
+pub(super) struct NearPiece {
     pub(super) segment: Segment<f64>,
     /// By the piece's own parameter.
     pub(super) clip: SegmentClip<f64>,

@@ -71,7 +71,7 @@ fn claimed(scene: &Scene, all: &[[Point; 2]]) -> Option<Spot> {
     (off < size(scene)).then(|| Spot {
         centre: first.clone(),
         half: (off * exact(1.6)).max(step_at(first) * exact(4.0)),
-        name: "where it was said to be inside",
+        name: "where an answer is inside",
     })
 }
 

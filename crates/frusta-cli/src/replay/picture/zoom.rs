@@ -4,7 +4,7 @@
 use super::exact::{Exact, Point, Rim, Window, between};
 use super::scene::{Scene, points, shown, truth_within};
 use super::spot::Spot;
-use crate::draw::{Canvas, Pen, Place, Plane, Sizes, draw_strand};
+use crate::draw::{Canvas, Pen, Place, Plane, Sizes, draw_segment};
 use crate::replay::answers::Replay;
 use frusta::Real;
 use frusta::oracle::round_nearest;
@@ -121,7 +121,7 @@ impl Zoom<'_> {
             thin: 1.7,
             mark: 4.5,
         };
-        draw_strand(canvas, &clip, shown(&range), sizes, at);
+        draw_segment(canvas, &clip, shown(&range), sizes, at);
     }
 
     /// Plain answers as crosses, exact ones as discs.

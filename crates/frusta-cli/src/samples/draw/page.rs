@@ -1,12 +1,12 @@
 //! One sample, large: the frustum, both trapezoids, the parameters, the words.
 
+use crate::draw::Palette;
+use crate::draw::wrapped;
 use crate::draw::{
-    Camera, Canvas, Entries, Frame, Pen, Place, Plane, Sizes, Type, all_corners, class_colour,
+    Camera, Canvas, Entries, Font, Frame, Pen, Place, Plane, Sizes, all_corners, class_colour,
     draw_legend, draw_planar, draw_spatial,
 };
-use crate::number::short;
-use crate::picture::Palette;
-use crate::picture::wrapped;
+use crate::io::number::short;
 use crate::samples::case::{Case, sets};
 use crate::samples::labels;
 use crate::samples::show::intervals;
@@ -68,22 +68,22 @@ pub(in crate::samples) fn page(
 fn heading(canvas: &mut Canvas, solid: &Solid, case: &Case) {
     let class = case.expected.class;
     let name = case.sample.name();
-    let large = Type::new(canvas.palette, 26.0, true);
+    let large = Font::new(canvas.palette, 26.0, true);
     canvas.text([MARGIN, 46.0], &name, large);
-    let coloured = Type {
+    let coloured = Font {
         colour: class_colour(canvas.palette, class),
         ..large
     };
     canvas.text_before([WIDTH - MARGIN, 46.0], class.name(), coloured);
-    let plain = Type::new(canvas.palette, 15.0, false);
+    let plain = Font::new(canvas.palette, 15.0, false);
     let line = format!("solid {}: {}", solid.name, labels::phrase(&case.sample));
     canvas.text([MARGIN, 74.0], &line, plain);
 }
 
 fn name_axes(canvas: &mut Canvas, plane: Plane, solid: &Solid) {
-    let name = Type::new(canvas.palette, 15.0, true);
+    let name = Font::new(canvas.palette, 15.0, true);
     canvas.text([12.0, 24.0], plane.name(), name);
-    let axis = Type::new(canvas.palette, 13.0, false);
+    let axis = Font::new(canvas.palette, 13.0, false);
     canvas.text([46.0, 24.0], &format!("{} upwards", plane.across()), axis);
     let depth = if solid.shape.direction().sign() > 0.0 {
         "z to the right"
@@ -110,10 +110,10 @@ fn parameters(canvas: &mut Canvas, frustum: &Frustum, case: &Case, top: f64) {
     ];
     let (left, right) = (MARGIN + 130.0, WIDTH - MARGIN - 150.0);
     let x = |t: f64| left + t * (right - left);
-    let type_ = Type::new(canvas.palette, 15.0, false);
+    let font = Font::new(canvas.palette, 15.0, false);
     for (i, (name, interval, colour)) in rows.into_iter().enumerate() {
         let y = top + 28.0 * i as f64;
-        canvas.text([MARGIN, y + 5.0], name, type_);
+        canvas.text([MARGIN, y + 5.0], name, font);
         canvas.line([left, y], [right, y], Pen::new(palette.faint, 1.5));
         let text = match interval {
             Some(interval) => {
@@ -128,7 +128,7 @@ fn parameters(canvas: &mut Canvas, frustum: &Frustum, case: &Case, top: f64) {
             }
             None => "none".to_owned(),
         };
-        canvas.text([right + 18.0, y + 5.0], &text, type_);
+        canvas.text([right + 18.0, y + 5.0], &text, font);
     }
 }
 
@@ -139,7 +139,7 @@ fn rounded(t: f64) -> String {
 
 /// The answer's sets, and why.
 fn words(canvas: &mut Canvas, case: &Case, top: f64) {
-    let type_ = Type::new(canvas.palette, 15.0, false);
+    let font = Font::new(canvas.palette, 15.0, false);
     let [enter, leave, coplanar] = sets(case.expected.part.as_ref());
     let mut said = Vec::new();
     for (verb, set) in [
@@ -157,6 +157,6 @@ fn words(canvas: &mut Canvas, case: &Case, top: f64) {
     }
     lines.extend(wrapped(&format!("Reason: {}.", case.sample.reason), 125));
     for (i, line) in lines.iter().enumerate() {
-        canvas.text([MARGIN, top + 26.0 * i as f64], line, type_);
+        canvas.text([MARGIN, top + 26.0 * i as f64], line, font);
     }
 }

@@ -1,11 +1,11 @@
 //! All samples, small: two features a row, each with its relations.
 
+use crate::draw::Palette;
 use crate::draw::{
-    Camera, Canvas, Entries, Frame, Place, Plane, Sizes, Type, all_corners, class_colour,
+    Camera, Canvas, Entries, Font, Frame, Place, Plane, Sizes, all_corners, class_colour,
     draw_legend, draw_planar, draw_spatial,
 };
-use crate::number::short;
-use crate::picture::Palette;
+use crate::io::number::short;
 use crate::samples::case::Case;
 use frusta::Vec3;
 use frusta::samples::{FeatureKind, Relation, Solid};
@@ -54,7 +54,7 @@ pub(in crate::samples) fn sheet(
     let mut top = HEADER;
     for (name, features) in groups {
         let title = format!("{} {name}", features.len());
-        canvas.text([MARGIN, top + 32.0], &title, Type::new(palette, 22.0, true));
+        canvas.text([MARGIN, top + 32.0], &title, Font::new(palette, 22.0, true));
         top += TITLE;
         for pair in features.chunks(2) {
             for (left, feature) in [MARGIN, MARGIN + step - GAP + APART].into_iter().zip(pair) {
@@ -94,7 +94,7 @@ impl Views {
 /// A sample: its name, its pictures, its answer.
 fn cell(canvas: &mut Canvas, views: &Views, solid: &Solid, case: &Case, [left, top]: Place) {
     let palette = canvas.palette;
-    let name = Type::new(palette, 13.5, true);
+    let name = Font::new(palette, 13.5, true);
     canvas.paper([left, top], CELL);
     canvas.text([left + 8.0, top + 18.0], &case.sample.name(), name);
     canvas.inside([left, top + TEXT], SPATIAL, |canvas| {
@@ -104,14 +104,14 @@ fn cell(canvas: &mut Canvas, views: &Views, solid: &Solid, case: &Case, [left, t
         let corner = [left + SPATIAL[0] + i as f64 * PLANAR[0], top + TEXT];
         canvas.inside(corner, PLANAR, |canvas| {
             draw_planar(canvas, views.frames[i], &case.subject(solid), Sizes::SMALL);
-            canvas.text([4.0, 14.0], plane.name(), Type::new(palette, 11.0, false));
+            canvas.text([4.0, 14.0], plane.name(), Font::new(palette, 11.0, false));
         });
     }
     let class = case.expected.class;
     let bottom = top + CELL[1] - 8.0;
-    let coloured = Type {
+    let coloured = Font {
         colour: class_colour(palette, class),
-        ..Type::new(palette, 13.5, true)
+        ..Font::new(palette, 13.5, true)
     };
     canvas.text([left + 8.0, bottom], class.name(), coloured);
     if let Some(part) = &case.expected.part {
@@ -120,7 +120,7 @@ fn cell(canvas: &mut Canvas, views: &Views, solid: &Solid, case: &Case, [left, t
             [a, b] => format!("t = {a} to {b}"),
         };
         let place = [left + CELL[0] - 8.0, bottom];
-        canvas.text_before(place, &t, Type::new(palette, 13.0, false));
+        canvas.text_before(place, &t, Font::new(palette, 13.0, false));
     }
 }
 
@@ -128,7 +128,7 @@ fn cell(canvas: &mut Canvas, views: &Views, solid: &Solid, case: &Case, [left, t
 fn header(canvas: &mut Canvas, solid: &Solid, count: usize) {
     let palette = canvas.palette;
     let title = format!("The {count} samples of the solid {}", solid.name);
-    canvas.text([MARGIN, 46.0], &title, Type::new(palette, 28.0, true));
+    canvas.text([MARGIN, 46.0], &title, Font::new(palette, 28.0, true));
     draw_legend(
         canvas,
         [MARGIN, 84.0],
