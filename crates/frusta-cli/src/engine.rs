@@ -12,7 +12,7 @@ use frusta::{
 pub(crate) enum Algorithm {
     /// Projection on two planes
     Vw,
-    /// Liang-Barsky that divides only where the signs ask for it
+    /// Liang-Barsky that divides only where the signs require it
     LiangBarsky,
     /// Liang-Barsky with a division for each side that is not parallel
     LiangBarskyTextbook,
@@ -54,7 +54,7 @@ impl From<Accuracy> for frusta::Accuracy {
     }
 }
 
-/// What clips.
+/// The chosen clipper.
 pub(crate) struct Engine<T> {
     clipper: Box<dyn SegmentClipper<T> + Send + Sync>,
     arithmetic: frusta::Arithmetic,
@@ -92,7 +92,7 @@ impl<T: Real> Engine<T> {
         self.clipper.name()
     }
 
-    /// Arithmetic and, if that is exact, accuracy.
+    /// The arithmetic and, if it is exact, the accuracy.
     pub(crate) fn arithmetic(&self) -> (&'static str, Option<&'static str>) {
         let accuracy = match self.arithmetic {
             frusta::Arithmetic::Exact(accuracy) => accuracy,

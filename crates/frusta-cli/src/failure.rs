@@ -1,4 +1,4 @@
-//! What went wrong, in one line.
+//! Failures, each in one line.
 
 use std::fmt::{self, Display, Write};
 use std::path::Path;

@@ -52,7 +52,7 @@ pub(crate) const EXIT_CODES: &str = "\
 Exit codes:
   0  done
   1  report, replay, verify, samples show: an exact answer is wrong
-  2  wrong usage, or a file that cannot be read, makes no sense or cannot be written; one line on
+  2  wrong usage, or a file that cannot be read, is malformed or cannot be written; one line on
      the error stream names the file, the place in it and the reason, and no output file is left
   130  interrupted; no unfinished output file is left";
 
@@ -65,7 +65,7 @@ const FAILED: u8 = 2;
 /// The exit code of `report`, `replay`, `verify` and `samples show` if an exact answer is wrong.
 const WRONG: u8 = 1;
 
-/// How many threads there are to use.
+/// Number of threads that the machine runs at once.
 pub(crate) fn cores() -> usize {
     std::thread::available_parallelism().map_or(1, usize::from)
 }
@@ -86,7 +86,7 @@ pub fn main() -> ExitCode {
     match result {
         Ok(code) => code,
         Err(failure) => {
-            terminal::say(&format!("frusta: {failure}\n"));
+            terminal::print_error(&format!("frusta: {failure}\n"));
             ExitCode::from(FAILED)
         }
     }

@@ -16,7 +16,7 @@ pub(crate) fn file_name(command: &Command) -> String {
 pub(crate) fn page(command: &Command) -> Result<String, Failure> {
     let man = Man::new(command.clone());
     let (title, version) = (title(command), env!("CARGO_PKG_VERSION"));
-    // `clap_mangen` leaves the date out where it has none, and the version
+    // `clap_mangen` leaves the date out if there is none, and the version
     // would be taken for it.
     let mut roff = format!(".TH \"{title}\" 1 \"\" \"frusta {version}\" \"frusta\"\n").into_bytes();
     let mut render = || {

@@ -1,5 +1,5 @@
-//! Reader, workers, writer: in order, in bounded memory, whatever the number
-//! of threads.
+//! Reader, workers, writer: in order, in bounded memory, with any number of
+//! threads.
 //!
 //! Job `k` goes to worker `k mod n` and its result is taken from there in turn,
 //! so that results come in the order of the jobs without being sorted, and
@@ -13,11 +13,11 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::thread;
 
-/// How many jobs may wait for each worker, and results for the sink.
+/// Number of jobs that may wait for each worker, and of results that may wait for the sink.
 const DEPTH: usize = 2;
 
-/// What a producer calls with each job. An error says that nobody takes jobs any
-/// more; the producer hands it on and ends.
+/// A producer calls this with each job. An error means that the workers have ended;
+/// the producer returns it.
 pub(crate) type Emit<'a, J> = dyn FnMut(J) -> Result<(), Failure> + 'a;
 
 /// Runs all jobs that `produce` emits through workers made by `worker`, one a
@@ -66,35 +66,34 @@ fn start<'scope>(
     start_by(spawn).map_err(|e| Failure::new(format_args!("threads: {e}")))
 }
 
-/// A thread's stack, and as much for what else it needs as it starts.
-const THREAD_ROOM: usize = 4 << 20;
+/// A thread's stack, and as much again for what else it allocates as it starts.
+const THREAD_MEMORY: usize = 4 << 20;
 
-/// Asks the system whether there is as much memory.
+/// Fails if the system has not that much memory.
 ///
-/// Each time for a little more: an allocator that has given back a large piece may keep the
-/// next one of that size to itself (glibc's threshold follows such pieces up to 32 MiB),
-/// and what it has in store says nothing of what a stack can get.
-fn room_for_a_thread() -> io::Result<()> {
+/// Asks for a little more each time: an allocator that has freed a large block may serve the
+/// next one of that size from its own store (glibc's threshold follows such blocks up to
+/// 32 MiB), which a stack cannot use.
+fn check_memory_for_a_thread() -> io::Result<()> {
     static ASKED: AtomicUsize = AtomicUsize::new(0);
     let more = ASKED.fetch_add(1, Ordering::Relaxed) % 1024 * (16 << 10);
     let mut piece = Vec::<u8>::new();
-    let room = piece.try_reserve_exact(THREAD_ROOM + more);
-    // Or the compiler sees that nobody needs it.
+    let room = piece.try_reserve_exact(THREAD_MEMORY + more);
+    // Otherwise the compiler removes the allocation.
     black_box(&piece);
     room.map_err(|_| io::Error::from(io::ErrorKind::OutOfMemory))
 }
 
-/// Starts a thread, if there is one left and memory for it, and waits until it runs, which
-/// it says through the channel that it is given.
+/// Starts a thread, if there is one left and memory for it, and waits until it runs: it sends
+/// through the channel that it is given.
 ///
-/// The standard library asks too late for a part of the memory: a thread that has a stack
-/// but no room for its signals' aborts the program. Of several that start at once each
-/// might be promised the same.
+/// The standard library allocates the signal stack in the new thread, and aborts the program
+/// if it cannot. Waiting prevents several new threads from counting on the same memory.
 pub(crate) fn start_by<T>(spawn: impl FnOnce(SyncSender<()>) -> io::Result<T>) -> io::Result<()> {
-    room_for_a_thread()?;
+    check_memory_for_a_thread()?;
     let (runs, is_running) = sync_channel(1);
     spawn(runs)?;
-    // A thread that is gone without a word ran, too.
+    // A thread that ended without sending ran, too.
     let _ = is_running.recv();
     Ok(())
 }
@@ -124,7 +123,7 @@ fn distribute<J>(
         _ => Err(Failure::new("the workers have ended")),
     };
     if let Err(failure) = produce(&mut |job| deal(Ok(job))) {
-        // Where nobody listens any more, a failure has been told already.
+        // If the workers have ended, a failure has been reported already.
         let _ = deal(Err(failure));
     }
 }

@@ -25,7 +25,7 @@ pub(crate) struct ManArgs {
     /// The command that the page is about, such as `samples show` [default: the whole program]
     #[arg(value_name = "COMMAND")]
     path: Vec<String>,
-    /// Write the pages of all commands to this folder instead; made if there is none
+    /// Write the pages of all commands to this folder instead; which is created if need be
     #[arg(short, long, value_name = "DIR", conflicts_with = "path")]
     output: Option<PathBuf>,
 }

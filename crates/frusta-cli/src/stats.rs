@@ -1,4 +1,4 @@
-//! What a run did, for people and for programs.
+//! The statistics of a run, for people and for programs.
 
 use crate::failure::one_line;
 use frusta::{Class, Deviation, Frustum, SegmentClip, StageCounts};
@@ -11,11 +11,11 @@ use std::time::Duration;
 pub(crate) struct Counts {
     /// By class, in the order of [`Class::ALL`].
     pub(crate) classes: [u64; 5],
-    /// Ends that were clipped.
+    /// Number of clipped ends.
     pub(crate) clipped_ends: u64,
-    /// Clipped ends that are not proven inside (all, unless asked for inward).
+    /// Number of clipped ends that are not proven inside: all, except with `--accuracy inward`.
     pub(crate) not_inward: u64,
-    /// Which stages the exact decisions needed.
+    /// Which stages decided.
     pub(crate) stages: StageCounts,
 }
 
@@ -41,7 +41,7 @@ impl Counts {
         self.stages += other.stages;
     }
 
-    /// How many segments there were.
+    /// Number of segments.
     pub(crate) fn segments(&self) -> u64 {
         self.classes.iter().sum()
     }
@@ -70,7 +70,7 @@ pub(crate) struct Report<'a> {
     pub(crate) threads: usize,
     pub(crate) flags: &'a str,
     pub(crate) chosen: bool,
-    /// Of a frustum from a matrix.
+    /// For a frustum from a matrix.
     pub(crate) deviation: Option<Deviation>,
     pub(crate) frustum: &'a Frustum,
     pub(crate) output: Option<String>,
@@ -81,8 +81,8 @@ pub(crate) struct Report<'a> {
 }
 
 impl Report<'_> {
-    /// The share of segments of which the floating-point filter left a sign
-    /// open. Later stages settled it, double-double included.
+    /// The share of segments with a sign that the floating-point filter did not decide;
+    /// later stages did, double-double included.
     fn filter_failure_share(&self) -> Option<f64> {
         let segments = self.counts.segments().max(1) as f64;
         let failures = self.counts.stages.filter_failures as f64;
@@ -239,7 +239,7 @@ fn grouped(value: u64) -> String {
     out
 }
 
-/// The most memory the process has held, where the system tells.
+/// Peak memory of the process, if the system reports it.
 fn peak_memory() -> Option<u64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
     let line = status.lines().find_map(|l| l.strip_prefix("VmHWM:"))?;

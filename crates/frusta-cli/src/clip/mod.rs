@@ -1,4 +1,4 @@
-//! `frusta clip`: the part of each of a file's segments that is in a frustum.
+//! `frusta clip`: the parts of a file's segments that are in a frustum.
 //!
 //! ```text
 //! reader:  ranges of the scene's edges, rows of a CSV file as text, or segments, in chunks
@@ -20,7 +20,7 @@ use crate::io::output::{self, Kind, Writer};
 use crate::io::{EdgeChoice, Format, Input, Positions, ReadOptions, format_parser};
 use crate::pipeline::start_by;
 use crate::stats::{Report, Times};
-use crate::terminal::{print, say};
+use crate::terminal::{print, print_error};
 use crate::view::ViewArgs;
 use clap::{Args, ValueEnum};
 use frusta::Frustum;
@@ -54,13 +54,13 @@ pub(crate) struct ClipArgs {
     /// Edges to take from a mesh [default: lines if the file has any, else triangles]
     #[arg(long)]
     edges: Option<EdgeChoice>,
-    /// GeoJSON: take positions as degrees and metres on WGS 84; coordinates are earth-centred metres
+    /// GeoJSON: positions are degrees and metres on WGS 84; coordinates become earth-centred metres
     #[arg(long)]
     ecef: bool,
     /// The algorithm
     #[arg(long, default_value = "vw")]
     algorithm: Algorithm,
-    /// What its decisions are computed with
+    /// The arithmetic of its decisions
     #[arg(long, default_value = "exact")]
     arithmetic: Arithmetic,
     /// With exact arithmetic: how clipped points are computed [default: fast]
@@ -81,9 +81,9 @@ pub(crate) struct ClipArgs {
 /// `--precision`
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum Precision {
-    /// Single: coordinates are rounded to it before they are clipped
+    /// Coordinates are rounded to single precision before they are clipped
     F32,
-    /// Double
+    /// Double precision
     F64,
 }
 
@@ -102,7 +102,7 @@ fn run_as<T: Scalar>(args: &ClipArgs) -> Result<(), Failure> {
     let input = Input::new(&args.file, args.from)?;
     let (name, format) = (input.name().display().to_string(), input.format().name());
     let threads = args.threads.map_or_else(crate::cores, usize::from);
-    let pool = threads_of(threads)?;
+    let pool = thread_pool(threads)?;
     let source = pool.install(|| args.source(input))?;
     let view = args.view.view(|| source.bounds())?;
     let accuracy = args.accuracy.unwrap_or(Accuracy::Fast);
@@ -125,7 +125,7 @@ fn run_as<T: Scalar>(args: &ClipArgs) -> Result<(), Failure> {
     times.write += finish.elapsed();
     times.total = start.elapsed();
     let (arithmetic, accuracy) = run.engine.arithmetic();
-    args.tell(&Report {
+    args.print(&Report {
         file: name,
         format,
         edges: source.edges(),
@@ -178,23 +178,23 @@ impl ClipArgs {
         Tracer::new(options, frustum, scene.as_ref())
     }
 
-    /// The statistics; on the error stream where the output takes the other.
-    fn tell(&self, report: &Report<'_>) -> Result<(), Failure> {
+    /// Prints the statistics: on the error stream if the output is the standard output.
+    fn print(&self, report: &Report<'_>) -> Result<(), Failure> {
         let text = if self.json {
             format!("{:#}\n", report.to_json())
         } else {
             report.to_table()
         };
         if self.output.as_deref().is_some_and(is_stream) {
-            say(&text);
+            print_error(&text);
             return Ok(());
         }
         print(&text)
     }
 }
 
-/// The threads that read a mesh and sum up ink.
-fn threads_of(count: usize) -> Result<rayon::ThreadPool, Failure> {
+/// The threads that read a mesh and sum ink.
+fn thread_pool(count: usize) -> Result<rayon::ThreadPool, Failure> {
     let start = |thread: rayon::ThreadBuilder| {
         start_by(|runs| {
             std::thread::Builder::new().spawn(move || {

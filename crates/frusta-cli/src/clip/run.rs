@@ -20,7 +20,7 @@ pub(super) struct Run<'a, T> {
     pub(super) frustum: &'a Frustum,
 }
 
-/// What a worker makes of a chunk.
+/// A chunk, clipped and formatted.
 struct Done {
     formatted: Formatted,
     counts: Counts,

@@ -95,7 +95,7 @@ impl Source {
         self.contents.edges().map(EdgeChoice::name)
     }
 
-    /// What the progress is measured by: segments, or bytes; `None` for a pipe.
+    /// The size for the progress bar: segments, or bytes; `None` for a pipe.
     pub(super) fn size(&self) -> Option<u64> {
         match &self.contents {
             Contents::Scene(scene) => Some(scene.len()),

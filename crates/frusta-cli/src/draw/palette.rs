@@ -35,7 +35,7 @@ pub(crate) struct Palette {
     pub(crate) cut: &'static str,
     /// Wrong answers.
     pub(crate) wrong: &'static str,
-    /// Under what a picture is about, as a highlighter does it.
+    /// Under the subject of a picture, like a highlighter.
     pub(crate) highlight: &'static str,
 }
 

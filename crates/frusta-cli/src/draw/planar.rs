@@ -35,14 +35,14 @@ pub(crate) struct Frame {
     plane: Plane,
     sign: f64,
     scale: f64,
-    /// Of the plane's coordinates, what is in the picture's middle.
+    /// The plane's coordinates in the middle of the picture.
     middle: Place,
     offset: Place,
 }
 
 impl Frame {
     /// Frames of one scale for both planes, so that these points fill pictures
-    /// of this size, but for a margin.
+    /// of this size, except for a margin.
     pub(crate) fn both(solid: &Solid, fit: &[Vec3<f64>], size: Place, margin: f64) -> [Self; 2] {
         let mut scale = f64::INFINITY;
         let frames = [Plane::V, Plane::W].map(|plane| {

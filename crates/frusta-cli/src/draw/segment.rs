@@ -1,16 +1,16 @@
-//! A segment in a picture: what is before the frustum, in it and behind it,
-//! and where it was cut.
+//! A segment in a picture: its parts before, in and behind the frustum, and where it
+//! was cut.
 
 use super::canvas::{Canvas, Pen, Place};
 use crate::draw::Palette;
 use frusta::{Class, SegmentClip};
 
-/// How large everything is.
+/// Sizes in pixels.
 #[derive(Clone, Copy)]
 pub(crate) struct Sizes {
-    /// Of the part inside.
+    /// The width of the part inside.
     pub(crate) thick: f64,
-    /// Of the parts outside, and of edges.
+    /// The width of the parts outside, and of edges.
     pub(crate) thin: f64,
     /// The radius of a mark.
     pub(crate) mark: f64,
@@ -72,7 +72,7 @@ pub(crate) fn draw(
     marks(canvas, clip, sizes, &place);
 }
 
-/// The segment's sense, by a head on its end.
+/// An arrowhead on the segment's end.
 fn arrow(canvas: &mut Canvas, from: Place, to: Place, sizes: Sizes, colour: &str) {
     let d = [to[0] - from[0], to[1] - from[1]];
     let length = d[0].hypot(d[1]);

@@ -1,6 +1,6 @@
 //! Text broken into lines.
 
-/// Lines of at most so many letters, broken at spaces where there are any.
+/// Lines of at most `most` letters, broken at spaces where there are any.
 pub(crate) fn wrapped(text: &str, most: usize) -> Vec<String> {
     let most = most.max(8);
     let mut lines = vec![String::new()];

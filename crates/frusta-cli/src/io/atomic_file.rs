@@ -1,7 +1,7 @@
-//! Files that are there whole or not at all, and the standard output.
+//! Files that are written whole or not at all, and the standard output.
 
 use crate::failure::Failure;
-use crate::terminal::say;
+use crate::terminal::print_error;
 use std::fs::{File, Permissions};
 use std::io::{self, BufWriter, ErrorKind, Write};
 use std::path::{Path, PathBuf};
@@ -12,7 +12,7 @@ use tempfile::{Builder, NamedTempFile};
 /// Bytes between two writes.
 const BUFFER: usize = 1 << 18;
 
-/// The exit code of an interrupted run, as shells have it.
+/// The exit code of an interrupted run, as in shells.
 const INTERRUPTED: i32 = 130;
 
 /// The temporary names of the files that are being written.
@@ -20,11 +20,10 @@ static UNFINISHED: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
 
 /// A file under a temporary name beside its own until it is finished; dropped
 /// before that, or when the run is interrupted, it leaves nothing and an older
-/// file of its name untouched. A link stays one: the file is what it leads to. The
-/// standard output (`-`), devices and named pipes are written as they are: they have
-/// nothing to be left.
+/// file of its name untouched. A symbolic link stays one: its target is written. The
+/// standard output (`-`), devices and named pipes are written directly.
 pub(crate) struct AtomicFile {
-    /// What messages call it, and where it is.
+    /// The name for messages, and the path after all links.
     path: PathBuf,
     place: PathBuf,
     out: BufWriter<Target>,
@@ -57,8 +56,8 @@ pub(crate) fn is_stream(path: &Path) -> bool {
     names.iter().any(|name| path == Path::new(name))
 }
 
-/// Where links lead, whether there is a file or not. An open file's link in `/proc`
-/// is not followed: what has it open would not see another file of its name.
+/// The path after all symbolic links, whether there is a file or not. An open file's link
+/// in `/proc` is not followed: whoever has the file open would not see a new one.
 fn followed(path: &Path) -> Result<PathBuf, Failure> {
     const MOST: usize = 40;
     let mut place = path.to_owned();
@@ -70,7 +69,7 @@ fn followed(path: &Path) -> Result<PathBuf, Failure> {
             _ => return Ok(place),
         }
     }
-    let why = "cannot be written: it is a link in a ring";
+    let why = "cannot be written: it is a cycle of links";
     Err(Failure::in_file(path, why))
 }
 
@@ -84,7 +83,7 @@ impl AtomicFile {
             let name = Path::new("standard output");
             (name, Target::Stream(Box::new(io::stdout())))
         } else if is_device || place.starts_with("/proc") {
-            // A rename would put a plain file in a device's place.
+            // A rename would replace the device by a regular file.
             let device = File::options().append(true).open(&place);
             let device = device.map_err(|e| failure(path, &e))?;
             (path, Target::Stream(Box::new(device)))
@@ -122,23 +121,23 @@ impl AtomicFile {
     }
 }
 
-/// Makes an interruption (SIGINT, SIGTERM, SIGHUP) remove what is unfinished. A
-/// killed process cannot: it leaves a hidden file `.frusta-...` beside.
+/// Makes an interruption (SIGINT, SIGTERM, SIGHUP) remove unfinished files. A
+/// killed process cannot: it leaves a hidden file `.frusta-...` in the same folder.
 pub(crate) fn watch_for_interruption() {
     let set = ctrlc::set_handler(|| {
-        // Held to the end: no file gets its name after this.
+        // Locked until the process ends: no file gets its name after this.
         let unfinished = UNFINISHED.lock().unwrap_or_else(PoisonError::into_inner);
         for path in unfinished.iter() {
             let _ = std::fs::remove_file(path);
         }
-        say("frusta: interrupted; no unfinished file is left\n");
+        print_error("frusta: interrupted; no unfinished file is left\n");
         process::exit(INTERRUPTED);
     });
     // Without a handler an interruption ends the process as usual.
     drop(set);
 }
 
-/// The file for `place`, which messages call `path`.
+/// The temporary file for `place`; messages name `path`.
 fn temporary(path: &Path, place: &Path) -> Result<NamedTempFile, Failure> {
     if place.is_dir() {
         return Err(Failure::in_file(path, "cannot be written: it is a folder"));
@@ -147,7 +146,7 @@ fn temporary(path: &Path, place: &Path) -> Result<NamedTempFile, Failure> {
         Some(folder) if !folder.as_os_str().is_empty() => folder,
         _ => Path::new("."),
     };
-    // Held while the file comes to be: an interruption must know its name.
+    // Locked while the file is created: an interruption must know its name.
     let mut unfinished = UNFINISHED.lock().unwrap_or_else(PoisonError::into_inner);
     let file = builder().tempfile_in(folder).map_err(|e| {
         // The error's own text names the temporary file.
@@ -164,14 +163,13 @@ fn temporary(path: &Path, place: &Path) -> Result<NamedTempFile, Failure> {
 
 fn failure(path: &Path, why: &io::Error) -> Failure {
     if why.kind() == ErrorKind::BrokenPipe {
-        // Who reads the standard output has seen enough.
+        // The reader of the standard output has gone.
         process::exit(0);
     }
     Failure::in_file(path, format_args!("cannot be written: {why}"))
 }
 
-/// The usual permissions (temporary files are private otherwise); the process's
-/// mask still applies.
+/// With the usual permissions, which temporary files do not have; the process's mask applies.
 #[cfg(unix)]
 fn builder() -> Builder<'static, 'static> {
     use std::os::unix::fs::PermissionsExt;

@@ -74,7 +74,7 @@ pub struct Block {
 #[derive(Clone, Copy, Debug)]
 struct Layout {
     columns: [usize; 6],
-    /// How many fields each row has.
+    /// Number of fields in each row.
     width: usize,
 }
 
@@ -135,7 +135,7 @@ fn read_some(reader: &mut impl Read, text: &mut Vec<u8>) -> std::io::Result<bool
     Ok(count == BLOCK)
 }
 
-/// How many lines begin in a text.
+/// Number of lines in a text.
 fn count_lines(text: &[u8]) -> u64 {
     let whole = memchr_iter(b'\n', text).count() as u64;
     whole + u64::from(!text.is_empty() && !text.ends_with(b"\n"))
@@ -146,9 +146,9 @@ fn is_row(line: &[u8]) -> bool {
     !matches!(line.strip_suffix(b"\r").unwrap_or(line), [] | [b'#', ..])
 }
 
-/// The layout that the first row tells, and how many bytes to pass over: all
-/// before that row, and the row, too, if it is a header. An error comes with the
-/// number of lines before.
+/// The layout by the first row, and the number of bytes to pass over: all before that
+/// row, and the row, too, if it is a header. An error comes with the number of lines
+/// before it.
 fn head(text: &[u8]) -> Result<Option<(Layout, usize)>, LineError> {
     let mut start = 0;
     for (n, line) in (0..).zip(text.split_inclusive(|&b| b == b'\n')) {
@@ -171,7 +171,7 @@ fn head(text: &[u8]) -> Result<Option<(Layout, usize)>, LineError> {
     Ok(None)
 }
 
-/// The layout that the first row tells; a row with no number in it is a header.
+/// The layout by the first row; a row without a number is a header.
 fn layout(record: &ByteRecord) -> Result<(Layout, bool), String> {
     let fields = || {
         record

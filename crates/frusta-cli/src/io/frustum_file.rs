@@ -16,7 +16,7 @@ use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 
-/// What a file may be, for the message about one that is nothing of it.
+/// The expected contents, for messages.
 const EXPECTED: &str = "expected an object with origin, axes, near and far (a rect pair), with \
      slopes and direction instead of far (infinite), with eye and target (a camera), or with matrix";
 
@@ -149,7 +149,7 @@ fn matrix(object: &Object<'_>) -> Result<MatrixFrustum, String> {
             _ => ClipY::Down,
         },
     };
-    // The precision tells how much of the entries is rounding.
+    // The precision bounds the rounding errors of the entries.
     let found = match object.choice("precision", &["f64", "f32"], true)? {
         0 => ViewProjection::from_flat(numbers, layout).frustum(clip),
         _ => ViewProjection::from_flat(numbers.map(|e| e as f32), layout).frustum(clip),
@@ -325,7 +325,7 @@ mod tests {
             match from_text(file, &corruption.of(sample)) {
                 Ok((frustum, _)) => {
                     whole += 1;
-                    // Twelve numbers or more; none is NaN or infinite.
+                    // All of its numbers are finite.
                     let text = format!("{:?}", frustum.pose());
                     assert!(!text.contains("NaN") && !text.contains("inf"), "{text}");
                 }

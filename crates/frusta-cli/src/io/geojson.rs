@@ -74,9 +74,9 @@ pub(super) struct Walk<'a, 'b> {
     take: &'a mut Take<'b>,
     /// Number of features begun.
     pub(super) feature: u64,
-    /// What `take` answered, if it was an error.
+    /// The failure of `take`, if there was one.
     stopped: Option<Failure>,
-    /// What was wrong with a position, if that ended the reading.
+    /// The fault of a position, if that ended the reading.
     fault: Option<Reason>,
 }
 

@@ -49,7 +49,7 @@ fn sequence(input: &Input, positions: Positions, take: &mut Take<'_>) -> Result<
 }
 
 /// A sequence as RFC 8142 defines it, with a record separator before each text, which
-/// becomes white space; inside a JSON text there can be none.
+/// becomes white space; a JSON text cannot contain one.
 struct Separated<R>(R);
 
 impl<R: Read> Read for Separated<R> {

@@ -1,4 +1,4 @@
-//! What is read: a file, the standard input, or bytes.
+//! The source of bytes: a file, the standard input, or memory.
 
 use super::Format;
 use crate::Failure;

@@ -1,7 +1,7 @@
 //! Lines of a text, with their numbers.
 //!
-//! A line has a greatest length: what has a longer one is no text, and reading
-//! on would fill the memory with it. Lines end with a line feed, with or without
+//! Lines have a greatest length: a file with a longer one is not text, and reading
+//! on would fill the memory. Lines end with a line feed, with or without
 //! a carriage return before it; a text whose lines end with the latter alone is
 //! refused, since it would be one line with most of it passed over.
 
@@ -22,7 +22,7 @@ pub(crate) struct Lines<R> {
 }
 
 impl<R: BufRead> Lines<R> {
-    /// The lines of what is read.
+    /// The lines of a reader.
     pub(crate) fn new(reader: R) -> Self {
         Self {
             reader,

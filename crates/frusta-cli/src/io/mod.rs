@@ -1,7 +1,7 @@
-//! Files: reading what is to be clipped, and writing what comes of it.
+//! Files: readers of segments and frusta, writers of clipped segments.
 //!
 //! ```text
-//! format         what a file format is; the list of formats; `open` reads any of them
+//! format         the trait of file formats and the list of them; `open` reads any of them
 //! gltf/ obj stl ply/ csv geojson geojsonl     a format each
 //! input          a file, the standard input or bytes, opened
 //! scene, edges   meshes in memory; lines, number, wgs84: what several formats need

@@ -20,8 +20,8 @@ impl Scalar for f64 {
 }
 
 /// Reads a decimal, correctly rounded, or a hexadecimal float (`0x1.8p-3`),
-/// which is rounded once for a single and refused where no double equals it:
-/// who writes those wants these bits.
+/// which is rounded once for `f32` and refused if no `f64` equals it: whoever writes
+/// one wants these bits.
 pub(crate) fn parse<T: Scalar>(text: &str) -> Result<T, String> {
     let digits = text.trim_start_matches(['+', '-']);
     if digits.starts_with("0x") || digits.starts_with("0X") {
@@ -62,7 +62,7 @@ pub(crate) fn write<T: Scalar>(value: T, out: &mut Vec<u8>) {
     out.extend_from_slice(text.strip_suffix(".0").unwrap_or(text).as_bytes());
 }
 
-/// The same for flags and messages, in the library's notation of them.
+/// The same for flags and messages, in Rust's notation.
 pub(crate) fn short(value: f64) -> String {
     let text = format!("{value:?}");
     text.strip_suffix(".0").unwrap_or(&text).to_owned()

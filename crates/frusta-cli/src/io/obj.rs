@@ -1,7 +1,7 @@
 //! Wavefront OBJ: `v`, `l` and `f`; everything else is passed over.
 //!
 //! Not through `tobj`: it keeps an `l` of three or more vertices as a polygon,
-//! so that polylines cannot be told from faces, and its errors carry no line.
+//! so that polylines cannot be distinguished from faces, and its errors carry no line.
 //!
 //! A vertex's first three numbers count (colours and weights do not move it).
 //! An index is absolute from 1, also to a vertex that comes later, or negative:
@@ -144,7 +144,7 @@ fn words(rest: &[u8]) -> Result<impl Iterator<Item = &str>, String> {
 #[derive(Default)]
 struct Reader {
     points: Vec<Vec3<f64>>,
-    /// How many vertices came so far, kept or not.
+    /// Number of vertices so far, kept or not.
     count: u32,
     lines: Vec<[u32; 2]>,
     faces: UniqueEdges,

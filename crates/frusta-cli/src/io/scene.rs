@@ -219,7 +219,7 @@ impl Scene {
         all
     }
 
-    /// The instance that holds a segment; empty instances hold none.
+    /// The instance that holds a segment; an empty instance holds no segment.
     fn instance_of(&self, index: u64) -> usize {
         self.firsts
             .partition_point(|&f| f <= index)

@@ -2,7 +2,7 @@
 //!
 //! Not through `stl_io`: it takes a binary file whose header begins with "solid "
 //! for a text, and many do; it ends at a text's first `endsolid`; and its errors
-//! have no line. Which kind a file is, its length tells: a binary one has 84
+//! have no line. The length decides whether a file is binary: a binary one has 84
 //! bytes and 50 for each triangle. Coordinates of texts are read as `f64`, and text word by
 //! word. Normals and attributes are passed over.
 
@@ -336,7 +336,7 @@ fn pass_over_name(words: &mut SplitAsciiWhitespace<'_>, state: State) {
     }
 }
 
-/// Reads until the buffer is full or the file ends; how many bytes.
+/// Reads until the buffer is full or the file ends; returns the number of bytes.
 pub(super) fn fill(reader: &mut impl Read, buffer: &mut [u8]) -> Result<usize, String> {
     let mut have = 0;
     while have < buffer.len() {

@@ -9,19 +9,19 @@ use std::fs::File;
 use std::io::{self, BufRead, BufReader};
 use std::path::Path;
 
-/// How many cases a run takes: beyond that nobody reads the answers.
+/// Number of cases that a run accepts.
 const MOST: usize = 100_000;
 
-/// A case and what is known about it.
+/// A case with its number and title.
 pub(super) struct Numbered {
     /// Its number among all cases, from 1.
     pub(super) number: usize,
-    /// What its file says of it, if anything.
+    /// Its title in the file, or empty.
     pub(super) title: String,
     pub(super) case: CaseLine,
 }
 
-/// All cases; none of them is run before all are read.
+/// Reads all cases.
 pub(super) fn read(inputs: &[String]) -> Result<Vec<Numbered>, Failure> {
     let mut cases = Cases(Vec::new());
     for input in inputs {
@@ -51,7 +51,7 @@ fn is_line(argument: &str) -> bool {
     matches!(words.next(), Some("f32" | "f64")) && words.next().is_some()
 }
 
-/// Why an argument is no file; it may be meant as a line.
+/// Why an argument is not a file; it may be meant as a line.
 fn unopened(argument: &str, why: &io::Error) -> Failure {
     if argument.trim().contains(char::is_whitespace) || argument.is_empty() {
         let why = "is not a file, and a line begins with f64 or f32";
@@ -128,7 +128,7 @@ impl Cases {
     }
 }
 
-/// Of a `report.json`, what is wanted here.
+/// The part of a `report.json` that is read here.
 #[derive(Deserialize)]
 struct Report {
     witnesses: Vec<Witness>,

@@ -2,10 +2,10 @@
 //!
 //! ```text
 //! lines      where cases come from
-//! answers    all answers, each held against the truth
+//! answers    all answers, each compared with the truth
 //! decimal    exact numbers in decimal
-//! text       what is printed, json: for programs
-//! picture/   what is drawn
+//! text       the output for people; json: for programs
+//! picture/   pictures
 //! ```
 
 mod answers;
@@ -144,4 +144,4 @@ Examples
 Exit codes:
   0  every answer of the exact arithmetic is right
   1  one is wrong
-  2  wrong usage, a line that makes no sense, or a file that cannot be read or written";
+  2  wrong usage, a malformed line, or a file that cannot be read or written";

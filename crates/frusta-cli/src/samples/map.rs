@@ -1,4 +1,4 @@
-//! `frusta samples map`: what two arithmetics say of inputs that differ by ulps.
+//! `frusta samples map`: the answers of two arithmetics for inputs that differ by ulps.
 //!
 //! After the pictures of Kettner, Mehlhorn, Pion, Schirra, Yap, "Classroom examples
 //! of robustness problems in geometric computations" (2008): one cell is one
@@ -19,7 +19,7 @@ use std::path::PathBuf;
 #[derive(Args, Debug)]
 #[command(after_long_help = EXAMPLES)]
 pub(super) struct MapArgs {
-    /// Near what
+    /// The feature
     place: Place,
     /// The picture: .svg or .png
     #[arg(short, long, value_name = "FILE")]
@@ -29,7 +29,7 @@ pub(super) struct MapArgs {
     theme: Theme,
 }
 
-/// What the segments come near to.
+/// The feature that the segments pass by.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum Place {
     /// Segments that end near the middle of the right face
@@ -74,8 +74,8 @@ const WIDE: f64 = 3.671_875;
 /// Where that is.
 const FAR: f64 = 7.0;
 
-/// Where the segments' ends are that move: near the world's origin, where doubles
-/// are dense, as models are; the camera stands off.
+/// Where the moved ends are: near the world's origin, where `f64`s are dense, as models are; the
+/// camera is away from it.
 const TARGET: Vec3<f64> = Vec3::new(0.3, 0.2, 0.4);
 
 impl Place {
@@ -105,14 +105,14 @@ impl Place {
         pose
     }
 
-    /// Opposite sides mirror each other; their slope, 3.625 over 7, is no double.
+    /// Opposite sides mirror each other; their slope, 3.625 over 7, is not an `f64`.
     fn frustum(self) -> Result<Frustum, frusta::FrustumError> {
         let rect = |z, w: f64| EndRect::new(z, -w, w, -w, w);
         let (near, far) = (rect(0.0, 0.046_875), rect(FAR, WIDE));
         Frustum::new(self.pose(), Shape::Finite { near, far })
     }
 
-    /// The segment of a cell: one end moved by so many ulps of the world's x and z.
+    /// The segment of a cell: one end moved by `x` and `z` ulps along the world's x and z.
     fn moved(self, x: i32, z: i32) -> Segment<f64> {
         let [fixed, moved] = self.segment().map(|p| self.pose().to_world(p.into()));
         let ulps = |v: f64, n: i32| v + f64::from(n) * (v.next_up() - v);
@@ -260,7 +260,7 @@ fn draw(maps: &[(&str, Map); 2], place: Place, wrong: usize, palette: &Palette) 
 const EXAMPLES: &str = "\
 A cell is a segment: the next one to the right has an end one ulp farther along x, the next one
 above one ulp farther along z. Exact decisions draw the line where it is; plain arithmetic rounds,
-and says of neighbouring inputs what it likes.
+and gives neighbouring inputs different answers at random.
 
 Examples
   frusta samples map face -o face.png

@@ -43,7 +43,7 @@ pub(super) fn run(args: &SheetArgs) -> Result<(), Failure> {
 const EXAMPLES: &str = "\
 A cell is a sample: the frustum from outside, with the feature highlighted, and the segment; beside
 it the trapezoids TV (x over z) and TW (y over z) with the segment's projections. All cells have one
-scale, but for near misses; a segment that leaves its picture goes on. A row has two features.
+scale, except near misses; a segment that leaves its picture goes on. A row has two features.
 
 Examples
   frusta samples sheet -o samples.png

@@ -71,7 +71,7 @@ fn agrees(found: &SegmentClip<f64>, case: &Case) -> bool {
     *found == case.expected
 }
 
-/// What is known and what was found, for people.
+/// The expected and the found answer, for people.
 fn text(solid: &Solid, frustum: &Frustum, case: &Case, found: &SegmentClip<f64>) -> String {
     let sample = &case.sample;
     let mut out = format!("{} of the solid {}\n\n", sample.name(), solid.name);
@@ -131,7 +131,7 @@ fn shape(shape: &Shape) -> Vec<String> {
     vec![end("near", shape.near()), far]
 }
 
-/// What of the segment's projections is in the two trapezoids.
+/// The parameters of the segment's projections that are in the two trapezoids.
 pub(super) fn intervals(frustum: &Frustum, segment: &Segment<f64>) -> [Option<Interval>; 2] {
     let [p, q] = [segment.start, segment.end].map(|p| frustum.pose().to_frame(p));
     [

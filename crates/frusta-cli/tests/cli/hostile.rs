@@ -201,7 +201,7 @@ fn an_output_that_is_a_link_stays_one() {
     }
     let output = run("ring.csv");
     assert_eq!(output.status.code(), Some(2));
-    assert!(text(&output.stderr).contains("a link in a ring"));
+    assert!(text(&output.stderr).contains("a cycle of links"));
     let before = ["b", "none.csv", "one.csv", "ring.csv", "two.csv"];
     assert_eq!(folder.files(), before);
 }

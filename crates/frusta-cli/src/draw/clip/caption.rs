@@ -1,4 +1,4 @@
-//! What stands below a picture: the title, a legend with numbers, notes.
+//! The caption below a picture: the title, a legend with numbers, notes.
 //!
 //! Widths of texts are estimated, a little above the usual, since the viewer
 //! chooses the font; what would not fit goes to the next line.
@@ -7,21 +7,21 @@ use super::layer::Style;
 use crate::draw::svg::Svg;
 use crate::draw::{Palette, wrapped};
 
-/// A sans-serif letter's width, of its size: text, bold text.
+/// A sans-serif letter's width relative to its size: text, bold text.
 const GLYPH: f64 = 0.6;
 const BOLD_GLYPH: f64 = 0.72;
 /// The size of text, in the picture's units; that of a long title.
 const SIZE: f64 = 15.0;
 const LEAST: f64 = 10.0;
-/// From line to line, of the size.
+/// The distance of lines, relative to the size.
 const LEADING: f64 = 1.6;
-/// What a sample takes, and what parts two entries; of the size.
+/// The width of a sample and the gap between entries, relative to the size.
 const SAMPLE: f64 = 2.6;
 const GAP: f64 = 1.4;
 
 /// An entry of the legend.
 pub(super) struct Entry {
-    /// What stands before the text.
+    /// The sample before the text.
     pub(super) sample: Sample,
     /// In bold and in this colour.
     pub(super) name: (&'static str, &'static str),

@@ -1,5 +1,4 @@
-//! How much ink each pixel gets: strokes summed up instead of painted over each
-//! other.
+//! The ink of each pixel: strokes are summed instead of painted over each other.
 //!
 //! Each stroke adds its coverage of a pixel, times its weight, to a grid of its
 //! layer:
@@ -27,7 +26,7 @@ use rayon::iter::{IndexedParallelIterator, ParallelIterator};
 use rayon::slice::ParallelSliceMut;
 use std::ops::Range;
 
-/// What the ink of a stroke of full weight right across a pixel is as a sum.
+/// The sum that stands for the ink of a stroke of full weight across a pixel.
 pub(super) const FULL: u64 = 1 << 34;
 /// The least weight; ink remains positive when shared and made a sum.
 pub(super) const LIGHTEST: f64 = 1.0 / (1 << 26) as f64;
@@ -74,13 +73,13 @@ fn locate(x: usize, y: usize, across: usize) -> (usize, usize) {
     (square, (y & WITHIN) << SIDE | (x & WITHIN))
 }
 
-/// Squares that cover so many pixels.
+/// Number of squares that cover a number of pixels.
 fn squares(pixels: usize) -> usize {
     pixels.div_ceil(1 << SIDE)
 }
 
 impl Density {
-    /// Blank grids of so many pixels.
+    /// Blank grids of a width and height in pixels.
     pub(super) fn new([width, height]: [usize; 2]) -> Self {
         Self {
             width,

@@ -1,5 +1,4 @@
-//! What a picture shows, from what lies beneath to what lies on top, and how
-//! each is drawn.
+//! The layers of a picture, from the lowest to the topmost, and their looks.
 //!
 //! Rare layers come after common ones, so that a few clipped edges stay in
 //! sight among millions. Besides its colour each layer has a thickness or a
@@ -14,7 +13,7 @@ use frusta::Class;
 pub(super) enum Layer {
     /// Segments without a point inside.
     Outside,
-    /// What was cut away of clipped segments.
+    /// The parts of clipped segments that were cut away.
     Rest,
     /// Segments inside.
     Inside,

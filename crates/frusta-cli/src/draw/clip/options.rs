@@ -1,4 +1,4 @@
-//! How pictures are to look: flags.
+//! The flags of pictures.
 
 use crate::draw::Theme;
 use clap::{Args, ValueEnum};
@@ -50,7 +50,7 @@ impl PictureArgs {
             .map(|(_, name)| *name)
     }
 
-    /// What they ask for.
+    /// The options, with defaults.
     pub(crate) fn options(&self) -> Options {
         Options {
             view: self.picture.unwrap_or_default(),

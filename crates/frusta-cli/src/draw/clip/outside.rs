@@ -2,7 +2,7 @@
 //!
 //! The viewer stands to the right of the frustum, behind its eye and above, at
 //! infinite distance: a parallel projection keeps what is parallel, and shows the
-//! shape as in a drawing. What it shows is a frustum, too (a long box), so that
+//! shape as in a drawing. The view is a frustum, too (a long box), so that
 //! everything in the picture is clipped by the same exact clipper as in a camera's
 //! view.
 //!
@@ -10,7 +10,7 @@
 //! solid:  the frustum's two ends, the far one where the scene ends, but as deep as wide,
 //!         if the frustum goes on far beyond; the apex of its sides
 //! axes:   from the solid's own right, up and forward
-//! window: all of the solid, and of the scene's box what is within twice
+//! window: all of the solid, and the part of the scene's box that is within twice
 //!         the solid's size
 //! ```
 
@@ -122,7 +122,7 @@ struct Sides {
     /// For each unit of depth.
     slopes: [f64; 4],
     sign: f64,
-    /// The far end's; infinite if there is none.
+    /// The far end's depth; infinite if there is no far end.
     depth: f64,
 }
 
@@ -185,7 +185,7 @@ impl Sides {
         (right - left).max(top - bottom)
     }
 
-    /// A depth to draw where nothing says where the scene is.
+    /// A depth to draw if the scene's extent is unknown.
     fn usual_depth(&self, apex: Option<f64>) -> f64 {
         if self.depth.is_finite() {
             return self.depth;

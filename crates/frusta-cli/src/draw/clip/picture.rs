@@ -1,4 +1,4 @@
-//! A picture of segments and what clipping made of them.
+//! A picture of segments and their clips.
 //!
 //! ```text
 //! workers: project each piece; hand on the strokes
@@ -184,7 +184,7 @@ impl Picture {
         Ok(())
     }
 
-    /// What is to be said of each layer.
+    /// The legend.
     fn legend(&self, classes: &[u64; 5], palette: &Palette) -> Vec<Entry> {
         let from_outside = self.tracer.outside.is_some();
         let unit = self.tracer.unit;

@@ -100,7 +100,7 @@ impl Projector {
         (place, s)
     }
 
-    /// How much what is at a scaled depth weighs: the farther, the less. With
+    /// The weight of a stroke at a scaled depth: the farther, the less. With
     /// the third power of the distance far strokes fade, although by the second
     /// power more of them share a pixel.
     #[inline]

@@ -82,7 +82,7 @@ pub(super) fn image(density: &Density, palette: &Palette) -> Result<String, Fail
     ))
 }
 
-/// Paints a layer over what is there.
+/// Paints a layer over the others.
 fn paint(pixels: &mut [Rgb], density: &Density, layer: Layer, palette: &Palette) {
     let (Some(sums), Some(again)) = (density.sums(layer), density.sums(layer)) else {
         return;
@@ -144,7 +144,7 @@ fn mix(from: Rgb, to: Rgb, part: f32) -> Rgb {
     })
 }
 
-/// From `#rrggbb`; what is none is black.
+/// From `#rrggbb`; black if it is malformed.
 fn rgb(text: &str) -> Rgb {
     let byte = |i: usize| {
         let digits = text.get(2 * i + 1..2 * i + 3).unwrap_or("0");

@@ -135,7 +135,7 @@ impl Pen<'_> {
         }
     }
 
-    /// What the viewer sees of a piece.
+    /// The part of a piece that the viewer sees.
     fn piece<T: Scalar>(&mut self, viewer: &Frustum, layer: Layer, piece: &Segment<T>) {
         let seen = viewer.clip_segment(piece).ok().and_then(|c| c.part);
         if let Some(part) = seen {

@@ -1,4 +1,4 @@
-//! What an viewer at infinite distance sees: a box along their own axes.
+//! What a viewer at infinite distance sees: a box along their own axes.
 
 use frusta::{EndRect, Frustum, FrustumError, Pose, Shape};
 
@@ -9,7 +9,7 @@ const RATIOS: [f64; 2] = [1.0, 2.0];
 /// The greatest depth of the viewer's own frustum.
 const DEEPEST: f64 = 1e307;
 
-/// What the viewer sees, along right, up and forward.
+/// The viewer's window, along right, up and forward.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Window {
     low: [f64; 3],
@@ -34,7 +34,7 @@ impl Window {
         }
     }
 
-    /// What it has in common with another; at least a point of that.
+    /// The intersection with another window; at least a point of that.
     pub(super) fn cut(self, other: &Self) -> Self {
         let into = |v: [f64; 3]| std::array::from_fn(|i| v[i].clamp(other.low[i], other.high[i]));
         Self {
@@ -76,7 +76,7 @@ impl Window {
     }
 
     /// The frustum through this window, with some air around and not too oblong;
-    /// deep enough for what is unknown.
+    /// deep enough for a scene of unknown extent.
     pub(super) fn frustum(&self, pose: Pose, depth: f64) -> Result<Frustum, FrustumError> {
         let size = [0, 1].map(|i| self.high[i] - self.low[i]);
         let larger = size[0].max(size[1]);

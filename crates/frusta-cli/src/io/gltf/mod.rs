@@ -32,7 +32,7 @@ use std::collections::HashMap;
 use std::io::BufRead;
 use std::path::Path;
 
-/// Extensions that change nothing of what is read here, or that it handles.
+/// Extensions that do not affect edges, or that are supported.
 const HARMLESS: [&str; 6] = [
     "KHR_mesh_quantization",
     "KHR_materials_",

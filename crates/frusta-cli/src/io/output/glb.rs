@@ -16,14 +16,14 @@ use std::io::{BufWriter, Read, Seek, SeekFrom, Write};
 
 /// Bytes of a point.
 const POINT: u64 = 12;
-/// glTF's numbers for a buffer of vertices, a float, points and lines.
+/// glTF's codes for a buffer of vertices, a float, points and lines.
 const VERTICES: u32 = 34962;
 const FLOAT: u32 = 5126;
 const POINTS: u32 = 0;
 const LINES: u32 = 1;
 
-/// Points are relative to a centre that is more than this many times farther than
-/// the frustum is wide: by then single precision has lost ten bits.
+/// Points are relative to a centre if that is more than this many times farther than
+/// the frustum is wide: beyond, single precision loses ten bits.
 const FAR: f64 = 1024.0;
 
 /// The points of a class in a chunk.
@@ -44,7 +44,7 @@ impl Default for Points {
     }
 }
 
-/// Where the points are relative to.
+/// The point that all points are relative to.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Centre(Vec3<f64>);
 

@@ -1,4 +1,4 @@
-//! Writing what was clipped, by the output file's extension.
+//! Writing clipped segments, by the output file's extension.
 //!
 //! Workers format their chunk of results ([`Format::format`]), the writer puts
 //! the chunks together in order ([`Writer::accept`]).
@@ -17,14 +17,14 @@ use frusta::{Frustum, Segment, SegmentClip};
 use std::path::Path;
 use std::sync::Arc;
 
-/// What a worker makes of its results.
+/// The formatted results of a chunk.
 #[derive(Debug, Default)]
 pub(crate) struct Formatted {
     /// Text for the file.
     text: Vec<u8>,
     /// GLB: points by class, or a coordinate that is too large.
     points_by_class: Option<Result<[glb::Points; 5], f64>>,
-    /// Pictures: what was drawn.
+    /// Pictures: the strokes.
     traced: Traced,
 }
 

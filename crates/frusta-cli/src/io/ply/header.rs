@@ -14,13 +14,13 @@ use std::io::BufRead;
 /// The longest name in a header, in bytes; names are part of messages.
 const LONGEST_NAME: usize = 100;
 
-/// What an error is about and the reason.
+/// The place of an error and the reason.
 pub(super) type Fault = (String, String);
 
 /// The header and the number of its lines.
 ///
-/// The crate gets line feeds alone, and a comment for each line that is none of
-/// the format's: old writers forgot that word.
+/// The crate gets line feeds alone, and a comment for each line that does not belong to
+/// the format: old writers forgot that word.
 pub(super) fn read(reader: &mut Reader) -> Result<(Header, u64), Fault> {
     let fail = |(number, why)| (format!("line {number}"), why);
     let not_ply = || fail((1, "not PLY: the first line must be ply".to_owned()));
@@ -62,8 +62,8 @@ fn parsed(text: &[u8]) -> Result<Header, Fault> {
     };
     let parsed = Parser::<DefaultElement>::new().read_ply_header(&mut &text[..]);
     parsed.map_err(|e| {
-        // The crate's own messages are a parser's; the line says more. It names
-        // none where the format is at fault, or a line that is not UTF-8.
+        // The line is clearer than the crate's own messages. The crate gives no line if the
+        // format is at fault, or if a line is not UTF-8.
         let torn = || lines().position(|line| std::str::from_utf8(line).is_err());
         let index = e.line().map(|n| n - 1).or_else(torn).unwrap_or(format);
         let line = String::from_utf8_lossy(lines().nth(index).unwrap_or_default());

@@ -3,7 +3,7 @@
 //!
 //! The `ply-rs-bw` crate reads the header and binary elements, one by one: what a
 //! header claims is never allocated. Texts are read here: the crate knows neither
-//! `.5` nor `5.`, and passes over what a line has too much.
+//! `.5` nor `5.`, and ignores surplus words of a line.
 
 mod header;
 
@@ -77,7 +77,7 @@ fn read(input: &Input, choice: Option<EdgeChoice>) -> Result<Scene, Failure> {
 
 /// What follows the header.
 enum Payload {
-    /// Lines, after so many of the header.
+    /// Lines, after this number of lines of the header.
     Text(Lines<Reader>, u64),
     /// Bytes; whether the first is the highest.
     Binary(Reader, bool),
@@ -155,7 +155,7 @@ fn element<E: Element>(line: &str, def: &ElementDef) -> Result<E, String> {
     }
 }
 
-/// A word as a number of some type.
+/// A word as a number of a type.
 fn scalar(word: &str, kind: &ScalarType) -> Result<Property, String> {
     let fail = || {
         format!(
@@ -346,7 +346,7 @@ impl PropertyAccess for Row {
 
 /// An element that is read from a text, too.
 trait Element: PropertyAccess {
-    /// What the crate does with a binary file's list, for a text's.
+    /// For a list in a text, as the crate sets one of a binary file.
     fn set_list(&mut self, name: &str, list: &[Property]) -> PropertyAccessResult;
 }
 
@@ -446,7 +446,11 @@ mod tests {
                 "line 12, vertex 0: \"7\" after the numbers that the header lists",
             ),
             ("+3", "", "line 12, vertex 0: z: the line ends before it"),
-            ("+3", "3.0", "line 12, vertex 0: z: \"3.0\" is not of type int"),
+            (
+                "+3",
+                "3.0",
+                "line 12, vertex 0: z: \"3.0\" is not of type int",
+            ),
             (".5", "inf", "vertex 0: a coordinate is infinite or NaN"),
             (".5", "1e39", "vertex 0: a coordinate is infinite or NaN"),
             (

@@ -1,5 +1,6 @@
-//! A case drawn: the frustum in space, its two trapezoids, the segment with what is
-//! truly inside, wrong answers; and closely the spot where they part from the truth.
+//! The picture of a case: the frustum in space, its two trapezoids, the segment with the
+//! part that is truly inside, and wrong answers; enlarged, the spot where they differ from
+//! the truth.
 
 mod exact;
 mod scene;
@@ -52,11 +53,11 @@ pub(super) fn picture(
     } else {
         Vec::new()
     };
-    let said = summary(replay);
+    let summary = summary(replay);
     let below = TOP + LARGE[1] + 56.0;
     let bottom = match &spot {
         Some(_) => below + SPOT + 42.0,
-        None => below + WORDS * said.len() as f64 + 10.0,
+        None => below + WORDS * summary.len() as f64 + 10.0,
     };
     let height = bottom + 26.0 + LINE * line.len() as f64;
     let mut canvas = Canvas::new([WIDTH, height], palette);
@@ -65,7 +66,7 @@ pub(super) fn picture(
     stretched(&mut canvas, &scene);
     match &spot {
         Some(spot) => closely(&mut canvas, replay, &scene, spot, below),
-        None => words(&mut canvas, [MARGIN, below], &said),
+        None => words(&mut canvas, [MARGIN, below], &summary),
     }
     let entries = Entries {
         feature: false,
@@ -156,7 +157,7 @@ fn name(canvas: &mut Canvas, plane: Plane, size: Place, scene: &Scene) {
     canvas.text_before([size[0] - 12.0, size[1] - 12.0], &depth, small);
 }
 
-/// What wrong answers say is inside, as far as it is near the frustum.
+/// The parts of wrong answers, as far as they are near the frustum.
 fn wrong_pieces(replay: &Replay, scene: &Scene) -> Vec<[Vec3<f64>; 2]> {
     let wrong = replay.answers.iter().filter(|a| !a.verdict.is_right());
     let mut pieces: Vec<[Vec3<f64>; 2]> = Vec::new();
@@ -184,7 +185,7 @@ fn mark(canvas: &mut Canvas, pieces: &[[Vec3<f64>; 2]], place: impl Fn(Vec3<f64>
     }
 }
 
-/// What is not to one scale.
+/// A line about axes that are not to one scale.
 fn stretched(canvas: &mut Canvas, scene: &Scene) {
     let names = ["x", "y", "z"].into_iter().zip(scene.window.stretch());
     let names: Vec<String> = names
@@ -241,11 +242,7 @@ fn closely(canvas: &mut Canvas, replay: &Replay, scene: &Scene, spot: &Spot, top
     canvas.text([left + 24.0, y], "exact arithmetic's points", small);
     y += 24.0;
     canvas.disc([left + 8.0, y - 5.0], 1.6, palette.classes[0]);
-    canvas.text(
-        [left + 24.0, y],
-        "representable points (where few)",
-        small,
-    );
+    canvas.text([left + 24.0, y], "representable points (where few)", small);
     words(canvas, [left, y + 34.0], &summary(replay));
 }
 

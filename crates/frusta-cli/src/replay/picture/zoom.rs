@@ -20,7 +20,7 @@ pub(super) struct Zoom<'a> {
     pub(super) scene: &'a Scene,
     pub(super) spot: &'a Spot,
     pub(super) plane: Plane,
-    /// Of the square picture.
+    /// The side of the square picture.
     pub(super) side: f64,
 }
 
@@ -55,7 +55,7 @@ impl Zoom<'_> {
         self.to_picture([at[2], at[self.across()]])
     }
 
-    /// What is inside, and the sides that bound it.
+    /// The region inside, and the sides that bound it.
     fn region(&self, canvas: &mut Canvas) {
         let mut region = vec![[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
         let sides = self.sides();
@@ -192,7 +192,7 @@ fn representable<T: Real>(centre: &Exact, window: &Window, k: usize) -> Option<V
 struct Side([f64; 3]);
 
 impl Side {
-    /// Of the value in the middle and the slopes by depth and across.
+    /// From the value in the middle and the slopes along depth and across.
     fn new(terms: [Exact; 3]) -> Self {
         let largest = terms.iter().map(Signed::abs).max();
         let largest = largest.filter(|l| !l.is_zero());

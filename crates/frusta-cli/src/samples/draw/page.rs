@@ -93,7 +93,7 @@ fn name_axes(canvas: &mut Canvas, plane: Plane, solid: &Solid) {
     canvas.text_before([SMALL[0] - 12.0, SMALL[1] - 14.0], depth, axis);
 }
 
-/// Three bars from 0 to 1: what is in TV, in TW, in both.
+/// Three bars from 0 to 1: the parameters in TV, in TW, in both.
 fn parameters(canvas: &mut Canvas, frustum: &Frustum, case: &Case, top: f64) {
     let [on_v, on_w] = intervals(frustum, &case.segment);
     let answer = case.expected.part.as_ref();
@@ -141,19 +141,19 @@ fn rounded(t: f64) -> String {
 fn words(canvas: &mut Canvas, case: &Case, top: f64) {
     let font = Font::new(canvas.palette, 15.0, false);
     let [enter, leave, coplanar] = sets(case.expected.part.as_ref());
-    let mut said = Vec::new();
+    let mut sets_by_verb = Vec::new();
     for (verb, set) in [
         ("enters on", enter),
         ("leaves on", leave),
         ("lies in", coplanar),
     ] {
         if !set.is_empty() {
-            said.push(format!("{verb} {set}"));
+            sets_by_verb.push(format!("{verb} {set}"));
         }
     }
     let mut lines = Vec::new();
-    if !said.is_empty() {
-        lines.push(said.join("; "));
+    if !sets_by_verb.is_empty() {
+        lines.push(sets_by_verb.join("; "));
     }
     lines.extend(wrapped(&format!("Reason: {}.", case.sample.reason), 125));
     for (i, line) in lines.iter().enumerate() {

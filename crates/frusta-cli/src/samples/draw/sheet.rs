@@ -60,7 +60,7 @@ pub(in crate::samples) fn sheet(
             for (left, feature) in [MARGIN, MARGIN + step - GAP + APART].into_iter().zip(pair) {
                 for (j, case) in feature.iter().enumerate() {
                     let x = left + j as f64 * (CELL[0] + GAP);
-                    // Of a near miss only the whole shows that it misses.
+                    // That a near miss misses shows only if all of it does.
                     let whole = (case.sample.relation == Relation::Apart).then(|| {
                         let ends = [case.segment.start, case.segment.end];
                         Views::new(solid, &[&corners[..], &ends].concat())
