@@ -1,24 +1,21 @@
 //! The command `frusta` as a library: [`main`] runs it, and [`io`] reads files.
 //!
 //! ```text
-//! clip/ samples/ replay/ report/ verify shell     a subcommand each; engine, pipeline, stats, view: for clip
+//! clip/ samples/ replay/ report/ verify shell/     a subcommand each
 //! io/         readers and writers of files
 //! draw/       pictures
-//! failure     errors, in one line; terminal: the standard streams; manual: pages of `frusta man`
+//! view        frusta from flags, or around a part of a scene
+//! failure     errors, each in one line; terminal: the standard streams
 //! ```
 
 mod clip;
 mod draw;
-mod engine;
 mod failure;
 pub mod io;
-mod manual;
-mod pipeline;
 mod replay;
 mod report;
 mod samples;
 mod shell;
-mod stats;
 mod terminal;
 mod verify;
 mod view;

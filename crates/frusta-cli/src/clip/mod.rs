@@ -5,28 +5,39 @@
 //! workers: edges to world coordinates, or rows to segments; clip; count; format
 //! writer:  the formatted chunks, in order
 //! ```
+//!
+//! ```text
+//! source     where segments come from
+//! engine     the algorithms by name
+//! pipeline   reader, workers and writer; run: clipping through it
+//! stats      the statistics of a run
+//! help       the long help text
+//! ```
 
+mod engine;
 mod help;
+mod pipeline;
 mod run;
 mod source;
+mod stats;
 
 use crate::EXIT_CODES;
 use crate::draw::clip::{PictureArgs, Tracer, View};
-use crate::engine::{Accuracy, Algorithm, Arithmetic, Engine};
 use crate::failure::Failure;
 use crate::io::atomic_file::is_stream;
 use crate::io::number::Scalar;
 use crate::io::output::{self, Kind, Writer};
 use crate::io::{EdgeChoice, Format, Input, Positions, ReadOptions, format_parser};
-use crate::pipeline::start_by;
-use crate::stats::{Report, Times};
 use crate::terminal::{print, print_error};
 use crate::view::ViewArgs;
 use clap::{Args, ValueEnum};
+use engine::{Accuracy, Algorithm, Arithmetic, Engine};
 use frusta::Frustum;
 use help::{FORMATS, HELP_END};
+use pipeline::start_by;
 use run::Run;
 use source::Source;
+use stats::{Report, Times};
 use std::path::PathBuf;
 use std::time::Instant;
 

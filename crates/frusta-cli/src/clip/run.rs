@@ -1,12 +1,12 @@
 //! Clipping a source through the pipeline.
 
+use super::engine::Engine;
+use super::pipeline::{self, Emit};
 use super::source::{Chunk, Source};
-use crate::engine::Engine;
+use super::stats::{Counts, Times};
 use crate::failure::Failure;
 use crate::io::number::Scalar;
 use crate::io::output::{self, Formatted, Writer};
-use crate::pipeline::{self, Emit};
-use crate::stats::{Counts, Times};
 use crate::terminal::progress_bar;
 use frusta::{Frustum, Segment, SegmentClip};
 use std::time::{Duration, Instant};

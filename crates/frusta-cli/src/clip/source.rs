@@ -1,10 +1,10 @@
 //! Where segments come from: a scene in memory, rows, or a stream.
 
+use super::pipeline::Emit;
 use crate::failure::Failure;
 use crate::io::{
     Block, Bounds, Contents, EdgeChoice, Input, LineError, ReadOptions, Scalar, Scene, Stream, open,
 };
-use crate::pipeline::Emit;
 use frusta::{NonFinite, Segment, Vec3};
 use std::sync::OnceLock;
 

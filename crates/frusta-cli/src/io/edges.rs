@@ -10,14 +10,14 @@ use std::collections::hash_map::Entry;
 #[derive(Debug, Default)]
 pub(crate) struct PointSet {
     points: Vec<Vec3<f64>>,
-    numbers: HashMap<[u64; 3], u32>,
+    indices: HashMap<[u64; 3], u32>,
 }
 
 impl PointSet {
-    /// A point's number.
-    pub(crate) fn number(&mut self, point: Vec3<f64>) -> Result<u32, String> {
+    /// A point's index.
+    pub(crate) fn index(&mut self, point: Vec3<f64>) -> Result<u32, String> {
         let next = self.points.len();
-        match self.numbers.entry(key(point)) {
+        match self.indices.entry(key(point)) {
             Entry::Occupied(known) => Ok(*known.get()),
             Entry::Vacant(_) if next >= u32::MAX as usize => {
                 Err("more than 4294967295 different points".to_owned())

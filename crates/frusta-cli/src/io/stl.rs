@@ -110,9 +110,9 @@ struct Triangles {
 impl Triangles {
     fn add(&mut self, [a, b, c]: [Vec3<f64>; 3]) -> Result<(), String> {
         let [a, b, c] = [
-            self.points.number(a)?,
-            self.points.number(b)?,
-            self.points.number(c)?,
+            self.points.index(a)?,
+            self.points.index(b)?,
+            self.points.index(c)?,
         ];
         for (from, to) in [(a, b), (b, c), (c, a)] {
             self.edges.add(from, to);

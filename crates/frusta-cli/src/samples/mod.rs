@@ -3,11 +3,11 @@
 
 mod case;
 mod choice;
-mod draw;
 mod export;
 mod labels;
 mod list;
 mod map;
+mod pictures;
 mod sheet;
 mod show;
 

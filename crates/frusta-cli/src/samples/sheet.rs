@@ -2,7 +2,7 @@
 
 use super::case::Case;
 use super::choice::Choice;
-use super::draw;
+use super::pictures;
 use crate::draw::{Theme, save};
 use crate::failure::Failure;
 use crate::terminal::print;
@@ -31,7 +31,7 @@ pub(super) fn run(args: &SheetArgs) -> Result<(), Failure> {
     let cases: Vec<Case> = cases
         .map(|sample| Case::new(sample, &placement))
         .collect::<Result<_, _>>()?;
-    let sheet = draw::sheet(solid, &cases, args.theme.palette());
+    let sheet = pictures::sheet(solid, &cases, args.theme.palette());
     save(&args.output, &sheet)?;
     print(&format!(
         "{} samples in {}\n",

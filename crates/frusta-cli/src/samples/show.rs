@@ -2,8 +2,8 @@
 
 use super::case::{Case, point, sets};
 use super::choice;
-use super::draw;
 use super::labels;
+use super::pictures;
 use crate::draw::{Theme, save};
 use crate::failure::Failure;
 use crate::io::number::short;
@@ -48,7 +48,7 @@ pub(super) fn run(args: &ShowArgs) -> Result<ExitCode, Failure> {
     let case = Case::new(choice::find(&args.solid, &args.name)?, &placement)?;
     let found = frustum.clip_segment(&case.segment).map_err(Failure::new)?;
     if let Some(file) = &args.output {
-        let page = draw::page(&args.solid, &frustum, &case, args.theme.palette());
+        let page = pictures::page(&args.solid, &frustum, &case, args.theme.palette());
         save(file, &page)?;
     }
     print(&if args.json {

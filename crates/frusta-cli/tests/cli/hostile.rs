@@ -157,9 +157,11 @@ fn a_pipe_with_a_name_is_read_once() {
         let run = clip([&[file.as_str()], &args[..]].concat());
         let message = text(&run.stderr);
         assert_eq!(run.status.code(), Some(code), "{name}: {message}");
-        // What is refused unread has left the writer waiting for a reader.
-        drop(std::fs::File::options().read(true).write(true).open(&file));
+        // The writer of a pipe that was refused unread may still wait for a reader, or may not
+        // have begun to: there is one until it is done.
+        let reader = std::fs::File::options().read(true).write(true).open(&file);
         feeder.join().unwrap();
+        drop(reader);
     }
 }
 
@@ -330,7 +332,8 @@ fn a_frustum_has_an_end() {
 fn too_many_threads_are_refused() {
     let folder = Folder::new();
     let (mut done, mut refused) = (0, 0);
-    for threads in (60..=180).step_by(8) {
+    // Few fit by far, many never do; how many exactly depends on the program's own size.
+    for threads in [1, 8, 24].into_iter().chain((60..=180).step_by(8)) {
         let run = Command::new("sh")
             .args(["-c", "ulimit -v 300000; exec \"$0\" \"$@\""])
             .arg(env!("CARGO_BIN_EXE_frusta"))

@@ -7,7 +7,7 @@ use std::io::Write;
 /// The columns.
 pub(crate) const HEADER: &str = "index,class,t0,t1,x0,y0,z0,x1,y1,z1,enter,leave,coplanar\n";
 
-/// Appends the rows of the segments from number `first` on.
+/// Appends the rows of the segments from index `first` on.
 ///
 /// Numbers are the shortest decimals that read back to the same bits; a segment
 /// that is outside has nothing after its class.

@@ -1,10 +1,11 @@
 //! `frusta completions` and `frusta man`: what a shell and a reader need to
 //! know of the command line, from the command line's own definition.
 
+mod manual;
+
 use crate::EXIT_CODES;
 use crate::failure::{Failure, quote};
 use crate::io::atomic_file::AtomicFile;
-use crate::manual;
 use crate::terminal::print;
 use clap::{Args, Command, CommandFactory};
 use clap_complete::Shell;
