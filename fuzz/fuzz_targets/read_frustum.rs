@@ -1,7 +1,7 @@
-//! A frustum's JSON, as the command reads it: read or refused.
+//! Frusta in JSON, as the command reads them: read or refused.
 
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
 
-fuzz_target!(|data: &[u8]| frusta_fuzz_readers::read_frustum(data));
+fuzz_target!(|data: &[u8]| frusta_fuzz::readers::read_frustum(data));

@@ -4,4 +4,4 @@
 
 use libfuzzer_sys::fuzz_target;
 
-fuzz_target!(|data: &[u8]| frusta_fuzz_readers::read_geojson(data));
+fuzz_target!(|data: &[u8]| frusta_fuzz::readers::read_geojson(data));

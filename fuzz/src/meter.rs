@@ -1,19 +1,19 @@
-//! How much memory reading takes.
+//! The memory that reading takes.
 
 use std::sync::Once;
 
-/// What reading takes of any file: the buffers of a reader and a block.
+/// Bytes for any file: the buffers of a reader and a block.
 const ALWAYS: u64 = 1 << 20;
 
-/// Bytes of memory for a byte of a file, at most. The most is for JSON: an empty
+/// Bytes of memory for a byte of a file, at most. JSON takes the most: an empty
 /// array of two bytes is a value of 32 in a growing list, which is copied.
 const EACH: u64 = 256;
 
-/// Calls a reader of a file of so many bytes; panics if it took more memory at
-/// once than is in proportion.
+/// Reads a file of so many bytes; panics if that took more memory at once than
+/// the bounds above.
 pub(crate) fn in_proportion<T>(bytes: usize, read: impl FnOnce() -> T) -> T {
     static ONE_THREAD: Once = Once::new();
-    // The meter sees its own thread, so rayon's work is to be done on it.
+    // Only allocations of this thread are counted, so rayon's work must be done on it.
     ONE_THREAD.call_once(|| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(1);
         let built = pool.use_current_thread().build_global();

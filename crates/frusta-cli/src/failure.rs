@@ -1,29 +1,34 @@
-//! What went wrong, in one line.
+//! Failures, each in one line.
 
 use std::fmt::{self, Display, Write};
 use std::path::Path;
 
-/// Why a command could not do its work: one line that names the file, the
-/// place in it and the reason.
+/// Why something failed: one line that names the file, the place in it and the
+/// reason.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Failure(String);
+pub struct Failure(String);
 
 impl Failure {
     /// A failure that concerns no file.
-    pub(crate) fn new(reason: impl Display) -> Self {
+    #[must_use]
+    pub fn new(reason: impl Display) -> Self {
         Self(one_line(&reason.to_string()))
     }
 
     /// A failure of a whole file.
-    pub(crate) fn in_file(file: &Path, reason: impl Display) -> Self {
+    #[must_use]
+    pub fn in_file(file: &Path, reason: impl Display) -> Self {
         Self::new(format_args!("{}: {reason}", file.display()))
     }
 
     /// A failure at a place in a file.
-    pub(crate) fn at(file: &Path, place: impl Display, reason: impl Display) -> Self {
+    #[must_use]
+    pub fn at(file: &Path, place: impl Display, reason: impl Display) -> Self {
         Self::new(format_args!("{}: {place}: {reason}", file.display()))
     }
 }
+
+impl std::error::Error for Failure {}
 
 impl Display for Failure {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

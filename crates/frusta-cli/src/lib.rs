@@ -1,26 +1,26 @@
-//! The command `frusta`, as a library: [`main`] runs it. The readers are public, so that they
-//! can be fuzzed.
+//! The command `frusta` as a library: [`main`] runs it, and [`io`] reads files.
+//!
+//! ```text
+//! clip/ samples/ replay/ report/ verify shell/     a subcommand each
+//! io/         readers and writers of files
+//! draw/       pictures
+//! view        frusta from flags, or around a part of a scene
+//! failure     errors, each in one line; terminal: the standard streams
+//! ```
 
 mod clip;
 mod draw;
-mod engine;
 mod failure;
-mod frustum_file;
-mod input;
-mod manual;
-mod number;
-mod output;
-mod picture;
-mod pipeline;
+pub mod io;
 mod replay;
 mod report;
 mod samples;
 mod shell;
-mod stats;
 mod terminal;
 mod verify;
 mod view;
-mod whole_file;
+
+pub use failure::Failure;
 
 use clap::{Parser, Subcommand};
 use std::process::ExitCode;
@@ -49,7 +49,7 @@ pub(crate) const EXIT_CODES: &str = "\
 Exit codes:
   0  done
   1  report, replay, verify, samples show: an exact answer is wrong
-  2  wrong usage, or a file that cannot be read, makes no sense or cannot be written; one line on
+  2  wrong usage, or a file that cannot be read, is malformed or cannot be written; one line on
      the error stream names the file, the place in it and the reason, and no output file is left
   130  interrupted; no unfinished output file is left";
 
@@ -62,7 +62,7 @@ const FAILED: u8 = 2;
 /// The exit code of `report`, `replay`, `verify` and `samples show` if an exact answer is wrong.
 const WRONG: u8 = 1;
 
-/// How many threads there are to use.
+/// Number of threads that the machine runs at once.
 pub(crate) fn cores() -> usize {
     std::thread::available_parallelism().map_or(1, usize::from)
 }
@@ -70,7 +70,7 @@ pub(crate) fn cores() -> usize {
 /// Runs the command line and returns its exit code.
 #[must_use]
 pub fn main() -> ExitCode {
-    whole_file::watch_for_interruption();
+    io::atomic_file::watch_for_interruption();
     let result = match Cli::parse().command {
         Command::Clip(args) => clip::run(&args).map(|()| ExitCode::SUCCESS),
         Command::Report(args) => report::run(&args),
@@ -83,7 +83,7 @@ pub fn main() -> ExitCode {
     match result {
         Ok(code) => code,
         Err(failure) => {
-            terminal::say(&format!("frusta: {failure}\n"));
+            terminal::print_error(&format!("frusta: {failure}\n"));
             ExitCode::from(FAILED)
         }
     }

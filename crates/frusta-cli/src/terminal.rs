@@ -1,10 +1,10 @@
-//! What is said on the standard streams.
+//! Output on the standard streams.
 
 use crate::failure::Failure;
 use indicatif::{ProgressBar, ProgressStyle};
 use std::io::{ErrorKind, Write};
 
-/// To the standard output; a reader that has gone away is no failure.
+/// Writes to the standard output. A reader that has gone away is not a failure.
 pub(crate) fn print(text: &str) -> Result<(), Failure> {
     match std::io::stdout().write_all(text.as_bytes()) {
         Err(e) if e.kind() != ErrorKind::BrokenPipe => {
@@ -14,12 +14,12 @@ pub(crate) fn print(text: &str) -> Result<(), Failure> {
     }
 }
 
-/// To the error stream; nobody is left to be told where that fails.
-pub(crate) fn say(text: &str) {
+/// Writes to the error stream. A failure is ignored: there is no other place to report it.
+pub(crate) fn print_error(text: &str) {
     let _ = std::io::stderr().write_all(text.as_bytes());
 }
 
-/// A bar on the error stream; invisible where that is no terminal. Without a size
+/// A bar on the error stream, which is shown only on a terminal. Without a size
 /// it counts bytes.
 pub(crate) fn progress_bar(size: impl Into<Option<u64>>) -> ProgressBar {
     let (bar, template) = match size.into() {

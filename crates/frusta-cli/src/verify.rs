@@ -1,5 +1,5 @@
 //! `frusta verify`: the families of hard cases through the exact clipper, each
-//! answer held against rational arithmetic.
+//! answer compared with rational arithmetic.
 
 use crate::failure::Failure;
 use crate::terminal::{print, progress_bar};
@@ -16,7 +16,7 @@ use std::process::ExitCode;
 /// Check the exact clipper against rational arithmetic on families of hard cases
 ///
 /// Each case is clipped with all three accuracies, also with its ends swapped, and, if inward, once
-/// more. Class, face sets, ends and points must be what rational arithmetic says.
+/// more. Class, face sets, ends and points must be those of rational arithmetic.
 #[derive(Args, Debug)]
 #[command(after_long_help = LEGEND)]
 pub(crate) struct VerifyArgs {
@@ -30,7 +30,7 @@ pub(crate) struct VerifyArgs {
     /// Only this family; may be given several times [default: all]
     #[arg(long, value_name = "NAME")]
     family: Vec<Family>,
-    /// Threads [default: one a core]; what is found does not depend on it
+    /// Threads [default: one a core]; the results do not depend on it
     #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u16).range(1..=256))]
     threads: Option<u16>,
     /// Flat rows as JSON on the standard output
@@ -192,7 +192,7 @@ Columns
   near%        cases with an end within 4 ulp of a face, or a line so close to an edge or vertex
   filt.%       cases that the floating-point filter did not settle
   exp.% int.%  cases that needed expansions; that needed big integers
-  none%        inward ends for which there is no representable point inside
+  none%        inward ends without a representable point inside
   G7max mean   by how many ulps inward ends could still move outwards
 After the sum comes the first witness of each family in which something is wrong, in hexadecimal.
 

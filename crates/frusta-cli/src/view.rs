@@ -1,10 +1,9 @@
-//! The frustum to clip by: from flags, from a file, or around a part of the
-//! scene.
+//! The frustum to clip by: from flags, from a file, or around a part of the scene.
 
 use crate::failure::Failure;
-use crate::frustum_file;
-use crate::input::{Bounds, wgs84};
-use crate::number::{self, short};
+use crate::io::frustum_file;
+use crate::io::number::{self, short};
+use crate::io::{Bounds, wgs84};
 use clap::Args;
 use frusta::{Camera, Deviation, Frustum, FrustumError, Projection, Vec3};
 use std::fmt::{self, Display};
@@ -53,7 +52,7 @@ pub(crate) struct ViewArgs {
 pub(crate) struct View {
     /// The frustum.
     pub(crate) frustum: Frustum,
-    /// Of a matrix: what its conversion missed.
+    /// For a matrix: the error of its conversion.
     pub(crate) deviation: Option<Deviation>,
     /// Flags that give it again.
     pub(crate) flags: String,
@@ -191,7 +190,7 @@ impl Parameters {
     }
 
     /// A camera above a place of the earth, with north up in the picture. Its far
-    /// face lies in the plane of the horizon, and its sides take all of that in, but
+    /// face lies in the plane of the horizon, and its sides take all of that in, except
     /// from less than 25 km up, where 170 degrees are not enough.
     fn over(place: Vec3<f64>) -> Result<Self, Failure> {
         let fail = |why: &str| Failure::new(format_args!("--over: {why}"));
@@ -200,7 +199,7 @@ impl Parameters {
             .filter(|_| place.z > 0.0)
             .ok_or_else(|| fail("the height must be above 0, and finite on the earth's scale"))?;
         let foot = eye + way * distance;
-        // Of the horizon's circle; nobody sees that the earth is no sphere.
+        // The radius of the horizon's circle, as if the earth were a sphere.
         let radius = (wgs84::RADIUS * wgs84::RADIUS - foot.dot(foot))
             .max(0.0)
             .sqrt();

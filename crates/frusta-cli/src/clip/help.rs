@@ -1,18 +1,19 @@
-//! What `frusta clip --help` says beyond the flags.
+//! The text of `frusta clip --help` after the flags.
 
 /// The end of `-h`.
 pub(super) const HELP_END: &str = "More with --help: formats, examples, exit codes.";
 
-/// The end of `--help`, but for the exit codes.
+/// The end of `--help`, before the exit codes.
 pub(super) const FORMATS: &str = "\
 Input
-  A file, told by its name or --from, or - for the standard input.
+  A file, or - for the standard input; the format by the name or --from.
   .glb .gltf  The default scene's line (mode 1 to 3) or triangle (mode 4 to 6) primitives through
-              all node transforms, composed in double precision. Sparse accessors, quantized
+              all node transforms, in double precision. Sparse accessors, quantized
               positions, data URIs and buffer files work; skins and morph targets are not applied.
   .obj        v, l and f. A polygon counts as its outline. With --edges lines its l elements are a
               stream, and only the vertices are kept in memory.
-  .stl        Text or binary, whichever the file's length says. Triangle edges.
+  .stl        Text or binary, recognised by the file's length. Text is read word by word. Triangle
+              edges.
   .ply        Text or binary: edge elements, or the outlines of faces and triangle strips.
   .csv        x0,y0,z0,x1,y1,z1, decimal or hexadecimal (0x1.8p-3); a stream. With a header the
               columns are found by name among others. A row is a line. Lines that begin with # are
@@ -23,20 +24,21 @@ Input
   .geojsonl   The same of many JSON texts, one after the other; also .geojsons, .ndjson.
   With --edges triangles each edge of a mesh comes once, wherever its vertices are split.
   A coordinate that is infinite or NaN is an error. A stream takes the same memory however long it
-  is (GeoJSON: that of its largest feature). To clip a piped one, say where the camera is: its
-  extent is not known beforehand.
+  is (GeoJSON: that of its largest feature). To clip a pipe, give the camera: the extent of a
+  pipe is not known beforehand.
 
 The earth (--ecef)
   From above, the earth's far side is in front of a camera, too, and only a far face cuts it off.
   --over LON,LAT,HEIGHT is a camera that looks down from a place in degrees and metres, north
-  upwards, against the normal of the plane through its horizon. That plane is its far face: what is
-  inside is this side of the horizon, and all of that; from less than 25 km up the sides, at most
-  170 degrees apart, cut some of it off. --fovy, --aspect, --near and --far change the camera.
+  upwards, against the normal of the plane through its horizon. That plane is its far face: inside
+  is everything on this side of the horizon; from less than 25 km up the sides, at most 170 degrees
+  apart, cut some of it off. --fovy, --aspect, --near and --far change the camera.
 
 Output
-  A file, told by its name or --to, or - for the standard output; with that the statistics go to the
-  error stream. Whole or not at all: it is written beside and renamed, also when the run fails or is
-  interrupted; not so devices and pipes.
+  A file, or - for the standard output, in which case the statistics go to the error stream; the
+  format by the name or --to. A file is written whole or not at all: under a temporary name in the
+  same folder, then renamed. A run that fails or is interrupted leaves nothing. Devices and pipes
+  are written directly.
   .csv  index,class,t0,t1,x0,y0,z0,x1,y1,z1,enter,leave,coplanar; a row a segment, in the input's
         order. class: outside, touch, boundary, inside or cross; t0..t1: the part's parameters;
         enter, leave, coplanar: faces joined by + (near far left right bottom top) whose planes
@@ -55,12 +57,12 @@ Output
         among all others (histogram equalisation), clipped edges and cut points lie on top.
 
 Statistics (a table, or --json), among others
-  filter_failure_share  of the segments, how many had a sign that the floating-point filter left
-        open, whichever later stage settled it, double-double included. stages has their number,
-        and how many signs and values each later stage gave. Null for --arithmetic plain.
-  not_inward  clipped points that are not proven inside: all, but for --accuracy inward.
-  view.deviation  of a frustum from a matrix: by how much its vertices miss the matrix's exact clip
-        volume; sides in X / W and Y / W, near and far as fractions of their distances.
+  filter_failure_share  the share of segments with a sign that the floating-point filter did not
+        decide; a later stage did, double-double included. stages has their number, and the number
+        of signs and values from each later stage. Null for --arithmetic plain.
+  not_inward  clipped points that are not proven inside: all, except with --accuracy inward.
+  view.deviation  for a frustum from a matrix: the distance of its vertices from the matrix's exact
+        clip volume; sides in X / W and Y / W, near and far as fractions of their distances.
 
 Frustum files (--frustum); any number may be a text with a hexadecimal float
   {\"origin\":[0,0,0], \"axes\":[[1,0,0],[0,1,0],[0,0,1]],
@@ -81,7 +83,7 @@ Examples
   frusta clip part.glb --picture outside --theme dark -o frustum.png
       which edges the camera takes in, seen from outside
   frusta clip coast.geojson --ecef --over 10,50,1e6 -o europe.png
-      what is this side of the horizon, 1000 km above a place at 10 degrees east and 50 north
+      everything on this side of the horizon, from 1000 km above 10 degrees east and 50 north
   generator | frusta clip - --from csv --frustum view.json -o - --to csv | consumer
       in constant memory
   frusta clip edges.csv --eye 0,0,5 --target 0,0,0 --near 1 --far inf -o clipped.csv

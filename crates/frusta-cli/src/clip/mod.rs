@@ -1,33 +1,43 @@
-//! `frusta clip`: the part of each of a file's segments that is in a frustum.
+//! `frusta clip`: the parts of a file's segments that are in a frustum.
 //!
 //! ```text
-//! reader:  numbers of the scene's edges, rows of a CSV file as text, or segments, in chunks
+//! reader:  ranges of the scene's edges, rows of a CSV file as text, or segments, in chunks
 //! workers: edges to world coordinates, or rows to segments; clip; count; format
 //! writer:  the formatted chunks, in order
 //! ```
+//!
+//! ```text
+//! source     where segments come from
+//! engine     the algorithms by name
+//! pipeline   reader, workers and writer; run: clipping through it
+//! stats      the statistics of a run
+//! help       the long help text
+//! ```
 
+mod engine;
 mod help;
+mod pipeline;
 mod run;
 mod source;
+mod stats;
 
 use crate::EXIT_CODES;
-use crate::engine::{Accuracy, Algorithm, Arithmetic, Engine};
+use crate::draw::clip::{PictureArgs, Tracer, View};
 use crate::failure::Failure;
-use crate::input::geojson::Positions;
-use crate::input::{self, EdgeChoice, Input};
-use crate::number::Scalar;
-use crate::output::{self, Kind, Writer};
-use crate::picture::{Canvas, PictureArgs, View};
-use crate::pipeline::start_by;
-use crate::stats::{Report, Times};
-use crate::terminal::{print, say};
+use crate::io::atomic_file::is_stream;
+use crate::io::number::Scalar;
+use crate::io::output::{self, Kind, Writer};
+use crate::io::{EdgeChoice, Format, Input, Positions, ReadOptions, format_parser};
+use crate::terminal::{print, print_error};
 use crate::view::ViewArgs;
-use crate::whole_file::is_stream;
 use clap::{Args, ValueEnum};
+use engine::{Accuracy, Algorithm, Arithmetic, Engine};
 use frusta::Frustum;
 use help::{FORMATS, HELP_END};
+use pipeline::start_by;
 use run::Run;
 use source::Source;
+use stats::{Report, Times};
 use std::path::PathBuf;
 use std::time::Instant;
 
@@ -41,8 +51,8 @@ pub(crate) struct ClipArgs {
     /// What to clip: .glb .gltf .obj .stl .ply .csv .geojson .geojsonl, or - for the standard input
     file: PathBuf,
     /// The file's format [default: by its name]
-    #[arg(long, value_name = "FORMAT")]
-    from: Option<input::Format>,
+    #[arg(long, value_name = "FORMAT", value_parser = format_parser())]
+    from: Option<&'static dyn Format>,
     /// Write the result: .csv (a row a segment), .obj .glb (lines), .svg .png (a picture), or - for the standard output
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
@@ -55,13 +65,13 @@ pub(crate) struct ClipArgs {
     /// Edges to take from a mesh [default: lines if the file has any, else triangles]
     #[arg(long)]
     edges: Option<EdgeChoice>,
-    /// GeoJSON: take positions as degrees and metres on WGS 84; coordinates are earth-centred metres
+    /// GeoJSON: positions are degrees and metres on WGS 84; coordinates become earth-centred metres
     #[arg(long)]
     ecef: bool,
     /// The algorithm
     #[arg(long, default_value = "vw")]
     algorithm: Algorithm,
-    /// What its decisions are computed with
+    /// The arithmetic of its decisions
     #[arg(long, default_value = "exact")]
     arithmetic: Arithmetic,
     /// With exact arithmetic: how clipped points are computed [default: fast]
@@ -82,9 +92,9 @@ pub(crate) struct ClipArgs {
 /// `--precision`
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum Precision {
-    /// Single: coordinates are rounded to it before they are clipped
+    /// Coordinates are rounded to single precision before they are clipped
     F32,
-    /// Double
+    /// Double precision
     F64,
 }
 
@@ -101,15 +111,15 @@ fn run_as<T: Scalar>(args: &ClipArgs) -> Result<(), Failure> {
     let kind = Kind::of(args.output.as_deref(), args.to)?;
     args.check(kind)?;
     let input = Input::new(&args.file, args.from)?;
-    let (name, format) = (input.name().display().to_string(), input.format.name());
+    let (name, format) = (input.name().display().to_string(), input.format().name());
     let threads = args.threads.map_or_else(crate::cores, usize::from);
-    let pool = threads_of(threads)?;
+    let pool = thread_pool(threads)?;
     let source = pool.install(|| args.source(input))?;
     let view = args.view.view(|| source.bounds())?;
     let accuracy = args.accuracy.unwrap_or(Accuracy::Fast);
     let run = Run {
         engine: Engine::<T>::new(args.algorithm, args.arithmetic, accuracy),
-        output: output::Format::new(kind, &view.frustum, || args.canvas(&source, &view.frustum))?,
+        output: output::Format::new(kind, &view.frustum, || args.tracer(&source, &view.frustum))?,
         threads,
         source: &source,
         frustum: &view.frustum,
@@ -126,7 +136,7 @@ fn run_as<T: Scalar>(args: &ClipArgs) -> Result<(), Failure> {
     times.write += finish.elapsed();
     times.total = start.elapsed();
     let (arithmetic, accuracy) = run.engine.arithmetic();
-    args.tell(&Report {
+    args.print(&Report {
         file: name,
         format,
         edges: source.edges(),
@@ -166,35 +176,36 @@ impl ClipArgs {
         } else {
             Positions::AsGiven
         };
-        Source::open(input, self.edges, positions)
+        let edges = self.edges;
+        Source::open(input, ReadOptions { edges, positions })
     }
 
-    fn canvas(&self, source: &Source, frustum: &Frustum) -> Result<Canvas, Failure> {
+    fn tracer(&self, source: &Source, frustum: &Frustum) -> Result<Tracer, Failure> {
         let options = self.pictures.options();
         let scene = match options.view {
             View::Outside if !source.is_piped() => Some(source.bounds()?),
             _ => None,
         };
-        Canvas::new(options, frustum, scene.as_ref())
+        Tracer::new(options, frustum, scene.as_ref())
     }
 
-    /// The statistics; on the error stream where the output takes the other.
-    fn tell(&self, report: &Report<'_>) -> Result<(), Failure> {
+    /// Prints the statistics: on the error stream if the output is the standard output.
+    fn print(&self, report: &Report<'_>) -> Result<(), Failure> {
         let text = if self.json {
             format!("{:#}\n", report.to_json())
         } else {
             report.to_table()
         };
         if self.output.as_deref().is_some_and(is_stream) {
-            say(&text);
+            print_error(&text);
             return Ok(());
         }
         print(&text)
     }
 }
 
-/// The threads that read a mesh and sum up ink.
-fn threads_of(count: usize) -> Result<rayon::ThreadPool, Failure> {
+/// The threads that read a mesh and sum ink.
+fn thread_pool(count: usize) -> Result<rayon::ThreadPool, Failure> {
     let start = |thread: rayon::ThreadBuilder| {
         start_by(|runs| {
             std::thread::Builder::new().spawn(move || {

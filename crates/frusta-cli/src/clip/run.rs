@@ -1,12 +1,12 @@
 //! Clipping a source through the pipeline.
 
+use super::engine::Engine;
+use super::pipeline::{self, Emit};
 use super::source::{Chunk, Source};
-use crate::engine::Engine;
+use super::stats::{Counts, Times};
 use crate::failure::Failure;
-use crate::number::Scalar;
-use crate::output::{self, Formatted, Writer};
-use crate::pipeline::{self, Emit};
-use crate::stats::{Counts, Times};
+use crate::io::number::Scalar;
+use crate::io::output::{self, Formatted, Writer};
 use crate::terminal::progress_bar;
 use frusta::{Frustum, Segment, SegmentClip};
 use std::time::{Duration, Instant};
@@ -20,7 +20,7 @@ pub(super) struct Run<'a, T> {
     pub(super) frustum: &'a Frustum,
 }
 
-/// What a worker makes of a chunk.
+/// A chunk, clipped and formatted.
 struct Done {
     formatted: Formatted,
     counts: Counts,
@@ -30,12 +30,12 @@ struct Done {
     position: u64,
 }
 
-impl<T: Scalar> Run<'_, T> {
+impl<'a, T: Scalar> Run<'a, T> {
     /// Clips everything; adds to the times.
     pub(super) fn clip(&self, writer: &mut Writer, times: &mut Times) -> Result<Counts, Failure> {
         let bar = progress_bar(self.source.size());
         let mut counts = Counts::default();
-        let timed = |emit: &mut Emit<'_, (Chunk, Duration)>| {
+        let timed = |emit: &mut Emit<'_, (Chunk<'a>, Duration)>| {
             let mut start = Instant::now();
             self.source.chunks(&mut |chunk| {
                 let read = start.elapsed();
@@ -65,7 +65,7 @@ impl<T: Scalar> Run<'_, T> {
     }
 
     /// A worker with buffers of its own, which it uses again for each chunk.
-    fn worker(&self) -> impl FnMut((Chunk, Duration)) -> Result<Done, Failure> {
+    fn worker(&self) -> impl FnMut((Chunk<'a>, Duration)) -> Result<Done, Failure> {
         let mut segments: Vec<Segment<T>> = Vec::new();
         let mut clips: Vec<SegmentClip<T>> = Vec::new();
         move |(chunk, read)| {
@@ -74,13 +74,12 @@ impl<T: Scalar> Run<'_, T> {
             self.source.load(chunk, &mut segments)?;
             let loaded = Instant::now();
             let mut counts = Counts::default();
-            clips.clear();
-            for (index, segment) in (first..).zip(&segments) {
-                let clip = self.engine.clip(self.frustum, segment, &mut counts.stages);
-                let clip = clip.map_err(|why| self.source.failure(index, why))?;
-                counts.add(&clip);
-                clips.push(clip);
-            }
+            let stages = &mut counts.stages;
+            let clipped = self
+                .engine
+                .clip(self.frustum, &segments, &mut clips, stages);
+            clipped.map_err(|at| self.source.failure(first + at.index as u64, at.found))?;
+            clips.iter().for_each(|clip| counts.add(clip));
             let clipped = Instant::now();
             let formatted = self.output.format(first, &segments, &clips);
             Ok(Done {

@@ -19,7 +19,7 @@ pub(crate) struct Camera {
 }
 
 impl Camera {
-    /// So placed that these points fill a picture of this size, but for a
+    /// Placed so that these points fill a picture of this size, except for a
     /// margin.
     pub(crate) fn new(solid: &Solid, fit: &[Vec3<f64>], size: Place, margin: f64) -> Self {
         let along = solid.shape.direction().sign();

@@ -1,7 +1,7 @@
-//! Strokes, shapes and text as SVG.
+//! Strokes, shapes and text, drawn one by one.
 
-use crate::picture::{Palette, escaped};
-use std::fmt::Write;
+use super::Palette;
+use super::svg::{Element, Svg};
 
 /// A place in a picture: pixels to the right and downwards.
 pub(crate) type Place = [f64; 2];
@@ -32,27 +32,30 @@ impl Pen {
         }
     }
 
-    fn attributes(self) -> String {
+    fn on(self, element: Element<'_>) -> Element<'_> {
         let Self { colour, width, .. } = self;
-        let dash = if self.dashed {
-            let (on, off) = (width * 2.2 + 1.5, width * 1.4 + 1.8);
-            format!(" stroke-dasharray=\"{on:.1} {off:.1}\" stroke-linecap=\"butt\"")
-        } else {
-            String::new()
-        };
-        format!("stroke=\"{colour}\" stroke-width=\"{width}\"{dash}")
+        let element = element
+            .attribute("stroke", colour)
+            .attribute("stroke-width", width);
+        if !self.dashed {
+            return element;
+        }
+        let (on, off) = (width * 2.2 + 1.5, width * 1.4 + 1.8);
+        element
+            .attribute("stroke-dasharray", format_args!("{on:.1} {off:.1}"))
+            .attribute("stroke-linecap", "butt")
     }
 }
 
 /// How text is set.
 #[derive(Clone, Copy)]
-pub(crate) struct Type {
+pub(crate) struct Font {
     pub(crate) size: f64,
     pub(crate) bold: bool,
     pub(crate) colour: &'static str,
 }
 
-impl Type {
+impl Font {
     /// In the palette's ink.
     pub(crate) fn new(palette: &Palette, size: f64, bold: bool) -> Self {
         Self {
@@ -63,97 +66,95 @@ impl Type {
     }
 }
 
-/// A picture in the making.
+/// A picture in the making: strokes, shapes and text in a theme's colours.
 pub(crate) struct Canvas {
-    svg: String,
+    svg: Svg,
     pub(crate) palette: &'static Palette,
 }
 
-// Writing into memory cannot fail, so no result of it is looked at.
 impl Canvas {
     /// An empty picture on the page's colour.
     pub(crate) fn new([width, height]: Place, palette: &'static Palette) -> Self {
-        let page = palette.page;
-        let svg = format!(
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
-             viewBox=\"0 0 {width} {height}\" font-family=\"'DejaVu Sans', sans-serif\" \
-             stroke-linecap=\"round\" stroke-linejoin=\"round\">\n\
-             <rect width=\"100%\" height=\"100%\" fill=\"{page}\"/>\n"
-        );
+        let mut svg = Svg::new();
+        let page = svg.document();
+        page.attribute("width", width)
+            .attribute("height", height)
+            .attribute("viewBox", format_args!("0 0 {width} {height}"))
+            .attribute("font-family", "'DejaVu Sans', sans-serif")
+            .attribute("stroke-linecap", "round")
+            .attribute("stroke-linejoin", "round")
+            .open();
+        let page = svg.element("rect").attribute("width", "100%");
+        page.attribute("height", "100%")
+            .attribute("fill", palette.page)
+            .empty();
         Self { svg, palette }
     }
 
     /// The file's text.
     pub(crate) fn finish(mut self) -> String {
-        self.svg.push_str("</svg>\n");
-        self.svg
+        self.svg.close("svg");
+        self.svg.finish()
     }
 
-    /// Draws in a rectangle with coordinates of its own; what leaves it is not
-    /// seen.
-    pub(crate) fn inside(
-        &mut self,
-        [x, y]: Place,
-        [width, height]: Place,
-        draw: impl FnOnce(&mut Self),
-    ) {
-        let _ = writeln!(
-            self.svg,
-            "<svg x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\">"
-        );
+    /// Draws in a rectangle with its own coordinates; what leaves it is not shown.
+    pub(crate) fn inside(&mut self, corner: Place, size: Place, draw: impl FnOnce(&mut Self)) {
+        let svg = self.svg.element("svg");
+        svg.rectangle(corner, size).open();
         draw(self);
-        self.svg.push_str("</svg>\n");
+        self.svg.close("svg");
     }
 
     /// A rectangle of paper.
-    pub(crate) fn paper(&mut self, [x, y]: Place, [width, height]: Place) {
+    pub(crate) fn paper(&mut self, corner: Place, size: Place) {
         let Palette { paper, faint, .. } = self.palette;
-        let _ = writeln!(
-            self.svg,
-            "<rect x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\" rx=\"3\" \
-             fill=\"{paper}\" stroke=\"{faint}\" stroke-width=\"0.6\"/>"
-        );
+        let rect = self.svg.element("rect");
+        rect.rectangle(corner, size)
+            .attribute("rx", 3)
+            .attribute("fill", paper)
+            .attribute("stroke", faint)
+            .attribute("stroke-width", 0.6)
+            .empty();
     }
 
     /// A straight line.
     pub(crate) fn line(&mut self, [x0, y0]: Place, [x1, y1]: Place, pen: Pen) {
-        let pen = pen.attributes();
-        let _ = writeln!(
-            self.svg,
-            "<path d=\"M{x0:.2} {y0:.2}L{x1:.2} {y1:.2}\" fill=\"none\" {pen}/>"
-        );
+        let d = format!("M{x0:.2} {y0:.2}L{x1:.2} {y1:.2}");
+        let path = self.svg.element("path").attribute("d", d);
+        path.attribute("fill", "none").with(|e| pen.on(e)).empty();
     }
 
-    /// An area, filled to a share of opaque, with an outline if its width is
-    /// not 0.
+    /// An area, filled to a share of opaque, with an outline if its width is not 0.
     pub(crate) fn polygon(&mut self, corners: &[Place], fill: &str, opacity: f64, outline: f64) {
-        let points: Vec<_> = corners
-            .iter()
-            .map(|[x, y]| format!("{x:.2},{y:.2}"))
-            .collect();
-        let _ = writeln!(
-            self.svg,
-            "<polygon points=\"{}\" fill=\"{fill}\" stroke=\"{fill}\" stroke-width=\"{outline}\" \
-             opacity=\"{opacity}\"/>",
-            points.join(" ")
-        );
+        let points = corners.iter().map(|[x, y]| format!("{x:.2},{y:.2}"));
+        let polygon = self.svg.element("polygon");
+        polygon
+            .attribute("points", points.collect::<Vec<_>>().join(" "))
+            .attribute("fill", fill)
+            .attribute("stroke", fill)
+            .attribute("stroke-width", outline)
+            .attribute("opacity", opacity)
+            .empty();
     }
 
     /// A filled circle.
-    pub(crate) fn disc(&mut self, [x, y]: Place, radius: f64, fill: &str) {
-        let _ = writeln!(
-            self.svg,
-            "<circle cx=\"{x:.2}\" cy=\"{y:.2}\" r=\"{radius}\" fill=\"{fill}\"/>"
-        );
+    pub(crate) fn disc(&mut self, centre: Place, radius: f64, fill: &str) {
+        self.circle(centre, radius).attribute("fill", fill).empty();
     }
 
     /// A circle that hides what is below it.
-    pub(crate) fn ring(&mut self, [x, y]: Place, radius: f64, pen: Pen) {
-        let (paper, pen) = (self.palette.paper, pen.attributes());
-        let _ = writeln!(
-            self.svg,
-            "<circle cx=\"{x:.2}\" cy=\"{y:.2}\" r=\"{radius}\" fill=\"{paper}\" {pen}/>"
-        );
+    pub(crate) fn ring(&mut self, centre: Place, radius: f64, pen: Pen) {
+        let paper = self.palette.paper;
+        let circle = self.circle(centre, radius).attribute("fill", paper);
+        circle.with(|e| pen.on(e)).empty();
+    }
+
+    fn circle(&mut self, [x, y]: Place, radius: f64) -> Element<'_> {
+        let circle = self.svg.element("circle");
+        circle
+            .attribute("cx", format_args!("{x:.2}"))
+            .attribute("cy", format_args!("{y:.2}"))
+            .attribute("r", radius)
     }
 
     /// A diagonal cross.
@@ -164,23 +165,25 @@ impl Canvas {
     }
 
     /// A line of text that begins at a place.
-    pub(crate) fn text(&mut self, [x, y]: Place, text: &str, font: Type) {
-        self.set(x, y, "start", text, font);
+    pub(crate) fn text(&mut self, place: Place, text: &str, font: Font) {
+        self.set(place, "start", text, font);
     }
 
     /// A line of text that ends at a place.
-    pub(crate) fn text_before(&mut self, [x, y]: Place, text: &str, font: Type) {
-        self.set(x, y, "end", text, font);
+    pub(crate) fn text_before(&mut self, place: Place, text: &str, font: Font) {
+        self.set(place, "end", text, font);
     }
 
-    fn set(&mut self, x: f64, y: f64, anchor: &str, text: &str, font: Type) {
-        let Type { size, bold, colour } = font;
-        let weight = if bold { " font-weight=\"bold\"" } else { "" };
-        let text = escaped(text);
-        let _ = writeln!(
-            self.svg,
-            "<text x=\"{x:.2}\" y=\"{y:.2}\" font-size=\"{size}\" text-anchor=\"{anchor}\" \
-             fill=\"{colour}\"{weight}>{text}</text>"
-        );
+    fn set(&mut self, [x, y]: Place, anchor: &str, text: &str, font: Font) {
+        let Font { size, bold, colour } = font;
+        let element = self.svg.element("text");
+        element
+            .attribute("x", format_args!("{x:.2}"))
+            .attribute("y", format_args!("{y:.2}"))
+            .attribute("font-size", size)
+            .attribute("text-anchor", anchor)
+            .attribute("fill", colour)
+            .attribute_if("font-weight", bold.then_some("bold"))
+            .text(text);
     }
 }

@@ -1,13 +1,13 @@
-//! What the strokes and marks mean, in a line.
+//! The legend of strokes and marks, in a line.
 
-use super::canvas::{Canvas, Pen, Place, Type};
-use super::strand::Sizes;
+use super::canvas::{Canvas, Font, Pen, Place};
+use super::segment::Sizes;
 use frusta::Class;
 
-/// How wide a stroke is shown.
+/// The width of a sample.
 const SHOWN: f64 = 34.0;
 
-/// What is in the line beside marks and strokes.
+/// Optional entries.
 #[derive(Clone, Copy)]
 pub(crate) struct Entries {
     /// The highlighted feature.
@@ -26,30 +26,30 @@ pub(crate) fn draw(canvas: &mut Canvas, [x, y]: Place, size: f64, entries: Entri
         let within = [[a[0] + 6.0, a[1]], [b[0] - 6.0, b[1]]];
         canvas.line(within[0], within[1], Pen::new(palette.highlight, 12.0));
         canvas.line(within[0], within[1], thin);
-        row.say(canvas, "the feature");
+        row.name(canvas, "the feature");
     }
     if entries.classes {
         for class in [Class::Boundary, Class::Inside, Class::Cross] {
             let [a, b] = row.stroke();
             let colour = palette.classes[class as usize];
             canvas.line(a, b, Pen::new(colour, sizes.thick));
-            row.say(canvas, &format!("part inside: {class}"));
+            row.name(canvas, &format!("part inside: {class}"));
         }
     }
     let touch = palette.classes[Class::Touch as usize];
     canvas.disc(row.middle(), sizes.mark, touch);
-    row.say(canvas, "touch");
+    row.name(canvas, "touch");
     canvas.ring(row.middle(), sizes.mark, Pen::new(palette.cut, 2.2));
-    row.say(canvas, "cut where it enters");
+    row.name(canvas, "cut where it enters");
     canvas.disc(row.middle(), 1.1 * sizes.mark, palette.cut);
-    row.say(canvas, "cut where it leaves");
+    row.name(canvas, "cut where it leaves");
     let [a, b] = row.stroke();
     canvas.line(a, b, thin.dashed());
-    row.say(canvas, "outside");
+    row.name(canvas, "outside");
     let [a, b] = row.stroke();
     let faint = Pen::new(palette.classes[0], 0.8 * sizes.thin);
     canvas.line(a, b, faint.dashed());
-    row.say(canvas, "hidden edge, or no end");
+    row.name(canvas, "hidden edge, or no end");
 }
 
 /// Where the next entry begins.
@@ -68,8 +68,8 @@ impl Row {
         [self.x + 0.5 * SHOWN, self.y]
     }
 
-    fn say(&mut self, canvas: &mut Canvas, text: &str) {
-        let font = Type {
+    fn name(&mut self, canvas: &mut Canvas, text: &str) {
+        let font = Font {
             size: self.size,
             bold: false,
             colour: canvas.palette.ink,

@@ -3,8 +3,8 @@
 
 use super::Subject;
 use super::canvas::{Canvas, Pen, Place};
+use super::segment::{self, Sizes};
 use super::spatial::{all_corners, corners};
-use super::strand::{self, Sizes};
 use frusta::samples::Solid;
 use frusta::{Segment, Vec3};
 
@@ -35,14 +35,14 @@ pub(crate) struct Frame {
     plane: Plane,
     sign: f64,
     scale: f64,
-    /// Of the plane's coordinates, what is in the picture's middle.
+    /// The plane's coordinates in the middle of the picture.
     middle: Place,
     offset: Place,
 }
 
 impl Frame {
     /// Frames of one scale for both planes, so that these points fill pictures
-    /// of this size, but for a margin.
+    /// of this size, except for a margin.
     pub(crate) fn both(solid: &Solid, fit: &[Vec3<f64>], size: Place, margin: f64) -> [Self; 2] {
         let mut scale = f64::INFINITY;
         let frames = [Plane::V, Plane::W].map(|plane| {
@@ -103,7 +103,7 @@ pub(crate) fn draw(canvas: &mut Canvas, frame: Frame, subject: &Subject<'_>, siz
     }
     let Segment { start: p, end: q } = subject.segment;
     let place = |t: f64| frame.place(p + (q - p) * t);
-    strand::draw(canvas, subject.clip, subject.shown, sizes, place);
+    segment::draw(canvas, subject.clip, subject.shown, sizes, place);
 }
 
 /// Low near, low far, high far, high near.

@@ -4,7 +4,7 @@
 use super::Subject;
 use super::camera::Camera;
 use super::canvas::{Canvas, Pen, Place};
-use super::strand::{self, Sizes};
+use super::segment::{self, Sizes};
 use frusta::samples::{Feature, FeatureKind, Solid};
 use frusta::{FaceSet, Vec3};
 
@@ -14,7 +14,7 @@ const OPEN: f64 = 1.22;
 /// The solid and the segment, as the camera sees them.
 pub(crate) fn draw(canvas: &mut Canvas, camera: &Camera, subject: &Subject<'_>, sizes: Sizes) {
     let solid = subject.solid;
-    let seen = seen(camera, solid);
+    let seen = visible_faces(camera, solid);
     let view = View {
         camera,
         solid,
@@ -33,7 +33,7 @@ pub(crate) fn draw(canvas: &mut Canvas, camera: &Camera, subject: &Subject<'_>, 
     if let Some([first, last]) = camera.before_eye(p, q) {
         let shown = [first.max(subject.shown[0]), last.min(subject.shown[1])];
         let place = |t: f64| camera.place(p + (q - p) * t);
-        strand::draw(canvas, subject.clip, shown, sizes, place);
+        segment::draw(canvas, subject.clip, shown, sizes, place);
     }
 }
 
@@ -74,11 +74,11 @@ fn faces(solid: &Solid) -> impl Iterator<Item = Feature> {
 }
 
 /// The faces whose outer side the camera sees.
-fn seen(camera: &Camera, solid: &Solid) -> FaceSet {
+fn visible_faces(camera: &Camera, solid: &Solid) -> FaceSet {
     let inside = solid.at([0.5, 0.5, 0.5]);
     let outer = |&face: &Feature| {
         let p = corners(solid, face);
-        // Of the diagonals, since a side of a pyramid's face has no length.
+        // From the diagonals, since a side of a pyramid's face may have no length.
         let normal = (p[2] - p[0]).cross(p[3] - p[1]);
         let outwards = normal.dot(p[0] - inside).signum();
         camera.sees(p[0], normal * outwards)
@@ -106,7 +106,7 @@ impl View<'_> {
         corners.map(|p| self.camera.place(p)).collect()
     }
 
-    /// A little colour on what is seen, each face its own shade.
+    /// A faint colour on visible faces, each with its own shade.
     fn shade(&self, canvas: &mut Canvas) {
         for face in faces(self.solid).filter(|&f| !self.is_hidden(f)) {
             let name = face.faces().first().map_or(0, |f| f as u8);
@@ -115,7 +115,7 @@ impl View<'_> {
         }
     }
 
-    /// What is behind shines through.
+    /// The highlighted feature; if it is behind, it shines through.
     fn highlight(&self, canvas: &mut Canvas, feature: Feature) {
         let (at, mark) = (self.places(feature), self.sizes.mark);
         let colour = canvas.palette.highlight;
@@ -127,7 +127,7 @@ impl View<'_> {
         }
     }
 
-    /// Dashed if none of its faces is seen; where there is no end, dashes go on.
+    /// An edge, dashed if it is hidden; it goes on in dashes where the solid has no end.
     fn edge(&self, canvas: &mut Canvas, edge: Feature) {
         let ends = self.places(edge);
         let [a, b] = ends[..] else {

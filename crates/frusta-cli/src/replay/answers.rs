@@ -1,4 +1,4 @@
-//! What every algorithm in every tier makes of one case, held against the truth.
+//! The answers of every algorithm in every tier for one case, compared with the truth.
 
 use frusta::oracle::{Gauge, Oracle, OracleClip, check_idempotent, check_swapped};
 use frusta::{
@@ -10,28 +10,28 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 /// A case, the truth about it, and all answers.
 pub(super) struct Replay {
     pub(super) case: CaseLine,
-    /// The segment; singles are doubles, too.
+    /// The segment in `f64`, which holds every `f32`.
     pub(super) segment: Segment<f64>,
     pub(super) truth: OracleClip,
     /// By tier, in each by algorithm.
     pub(super) answers: Vec<Answer>,
     /// Whether there are answers in `f32`: it must have the segment's coordinates.
-    pub(super) singles: bool,
+    pub(super) has_f32: bool,
 }
 
-/// What one algorithm in one tier said.
+/// The answer of one algorithm in one tier.
 pub(super) struct Answer {
     pub(super) algorithm: SurveyAlgorithm,
     pub(super) tier: SurveyTier,
     pub(super) verdict: Verdict,
 }
 
-/// An answer and what is wrong with it.
+/// An answer and its faults.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Verdict {
     /// `None` if there was no answer, or one with a number that is not finite.
     pub(super) clip: Option<SegmentClip<f64>>,
-    /// Why there is none.
+    /// Why there is no answer.
     pub(super) refusal: Option<String>,
     pub(super) class: bool,
     /// Face sets and clipped flags; as right as they can be if the class is wrong.
@@ -44,9 +44,9 @@ pub(super) struct Verdict {
     pub(super) symmetric: bool,
     /// Whether the answer, clipped again, stays.
     pub(super) idempotent: bool,
-    /// Of an exact tier, everything that breaks a guarantee.
+    /// For an exact tier, everything that breaks a guarantee.
     pub(super) violations: Vec<String>,
-    /// What the exact tiers' predicates needed.
+    /// Which stages the exact tiers' predicates needed.
     pub(super) stages: StageCounts,
 }
 
@@ -63,7 +63,7 @@ impl Verdict {
         self.class && self.faces && self.refusal.is_none()
     }
 
-    /// What is wrong, a word each.
+    /// The faults, a word each.
     pub(super) fn remarks(&self) -> Vec<&'static str> {
         let mut remarks = Vec::new();
         for (wrong, word) in [
@@ -116,13 +116,13 @@ impl Replay {
             .flat_map(|tier| SurveyAlgorithm::ALL.map(|a| answer(a, tier)))
             .flatten()
             .collect();
-        let singles = single.is_some();
+        let has_f32 = single.is_some();
         Ok(Self {
             case,
             segment,
             truth,
             answers,
-            singles,
+            has_f32,
         })
     }
 
@@ -157,7 +157,7 @@ fn as_single(segment: &Segment<f64>) -> Option<Segment<f32>> {
 type Clip<'a, T> =
     &'a dyn Fn(&Segment<T>, &mut StageCounts) -> Option<Result<SegmentClip<T>, NonFinite>>;
 
-/// What an answer in `T` is held against, and who gives it.
+/// What an answer in `T` is compared with, and what gives the answer.
 struct Judge<'a, T> {
     oracle: &'a Oracle,
     truth: &'a OracleClip,
@@ -309,7 +309,7 @@ fn is_finite<T: Real>(answer: &SegmentClip<T>) -> bool {
     part.is_none_or(|p| finite(&p.entry) && finite(&p.exit))
 }
 
-/// The same answer in doubles.
+/// The same answer in `f64`.
 fn widened<T: Real>(answer: &SegmentClip<T>) -> SegmentClip<f64> {
     let end = |e: PartEnd<T>| PartEnd {
         t: e.t.to_f64(),
@@ -328,7 +328,7 @@ fn widened<T: Real>(answer: &SegmentClip<T>) -> SegmentClip<f64> {
     }
 }
 
-/// What a tier promises of points; `None` for plain arithmetic.
+/// The accuracy of a tier's points; `None` for plain arithmetic.
 fn accuracy(tier: SurveyTier) -> Option<Accuracy> {
     match tier {
         SurveyTier::PlainF32 | SurveyTier::PlainF64 => None,

@@ -5,7 +5,7 @@ use num_bigint::BigUint;
 use num_rational::BigRational;
 use num_traits::{One, Signed, Zero};
 
-/// A fraction to so many significant digits; trailing zeros are left out exactly if
+/// A fraction, rounded to a number of significant digits; trailing zeros are left out exactly if
 /// nothing was rounded. A parameter just below 1 is written as `1 - 2.5e-31`, since
 /// its own digits would be nines.
 pub(super) fn parameter(t: &BigRational, digits: usize) -> String {
@@ -19,7 +19,7 @@ pub(super) fn parameter(t: &BigRational, digits: usize) -> String {
     }
 }
 
-/// A fraction to so many significant digits.
+/// A fraction, rounded to a number of significant digits.
 pub(super) fn decimal(x: &BigRational, digits: usize) -> String {
     let (n, d) = (x.numer().magnitude(), x.denom().magnitude());
     if n.is_zero() || d.is_zero() {

@@ -2,26 +2,26 @@
 //! witnesses of a `report.json`.
 
 use crate::failure::{Failure, quote, shorten};
-use crate::input::{Lines, MARK};
+use crate::io::{Lines, MARK};
 use frusta_lab::{CaseLine, CaseLineError};
 use serde::Deserialize;
 use std::fs::File;
 use std::io::{self, BufRead, BufReader};
 use std::path::Path;
 
-/// How many cases a run takes: beyond that nobody reads the answers.
+/// Number of cases that a run accepts.
 const MOST: usize = 100_000;
 
-/// A case and what is known about it.
+/// A case with its number and title.
 pub(super) struct Numbered {
     /// Its number among all cases, from 1.
     pub(super) number: usize,
-    /// What its file says of it, if anything.
+    /// Its title in the file, or empty.
     pub(super) title: String,
     pub(super) case: CaseLine,
 }
 
-/// All cases; none of them is run before all are read.
+/// Reads all cases.
 pub(super) fn read(inputs: &[String]) -> Result<Vec<Numbered>, Failure> {
     let mut cases = Cases(Vec::new());
     for input in inputs {
@@ -40,7 +40,7 @@ pub(super) fn read(inputs: &[String]) -> Result<Vec<Numbered>, Failure> {
         }
     }
     if cases.0.is_empty() {
-        return Err(Failure::new("there is no line in the input"));
+        return Err(Failure::new("the input has no line"));
     }
     Ok(cases.0)
 }
@@ -51,10 +51,10 @@ fn is_line(argument: &str) -> bool {
     matches!(words.next(), Some("f32" | "f64")) && words.next().is_some()
 }
 
-/// Why an argument is no file; it may be meant as a line.
+/// Why an argument is not a file; it may be meant as a line.
 fn unopened(argument: &str, why: &io::Error) -> Failure {
     if argument.trim().contains(char::is_whitespace) || argument.is_empty() {
-        let why = "is no file, and a line begins with f64 or f32";
+        let why = "is not a file, and a line begins with f64 or f32";
         Failure::new(format_args!("{} {why}", quote(argument)))
     } else {
         Failure::in_file(Path::new(&shorten(argument)), why)
@@ -128,7 +128,7 @@ impl Cases {
     }
 }
 
-/// Of a `report.json`, what is wanted here.
+/// The part of a `report.json` that is read here.
 #[derive(Deserialize)]
 struct Report {
     witnesses: Vec<Witness>,

@@ -2,10 +2,10 @@
 //!
 //! ```text
 //! lines      where cases come from
-//! answers    all answers, each held against the truth
+//! answers    all answers, each compared with the truth
 //! decimal    exact numbers in decimal
-//! text       what is printed, json: for programs
-//! picture/   what is drawn
+//! text       the output for people; json: for programs
+//! picture/   pictures
 //! ```
 
 mod answers;
@@ -15,8 +15,8 @@ mod lines;
 mod picture;
 mod text;
 
+use crate::draw::Theme;
 use crate::failure::Failure;
-use crate::picture::Theme;
 use crate::terminal::print;
 use answers::Replay;
 use clap::Args;
@@ -82,7 +82,7 @@ pub(crate) fn run(args: &ReplayArgs) -> Result<ExitCode, Failure> {
         let numbered = args.out.as_ref().map(|f| f.join(format!("{number}.svg")));
         if let Some(file) = args.output.as_ref().or(numbered.as_ref()) {
             let svg = picture::picture(&replay, &title, args.theme.palette(), true);
-            crate::picture::save(file, &svg)?;
+            crate::draw::save(file, &svg)?;
         }
         if args.json {
             // A case at a time: many are more than a memory holds.
@@ -144,4 +144,4 @@ Examples
 Exit codes:
   0  every answer of the exact arithmetic is right
   1  one is wrong
-  2  wrong usage, a line that makes no sense, or a file that cannot be read or written";
+  2  wrong usage, a malformed line, or a file that cannot be read or written";

@@ -1,9 +1,9 @@
-//! What is said of a case, for people: the truth, then every answer.
+//! A case as text for people: the truth, then every answer.
 
 use super::answers::{Answer, Replay, letters};
 use super::decimal::{decimal, parameter};
-use crate::number::short;
-use crate::picture::wrapped;
+use crate::draw::wrapped;
+use crate::io::number::short;
 use frusta::oracle::OracleEnd;
 use frusta::{Class, EndRect, FaceSet, Shape, Vec3};
 use frusta_lab::{CaseSegment, SurveyAlgorithm, SurveyTier};
@@ -42,7 +42,7 @@ pub(super) fn text(replay: &Replay) -> String {
     out
 }
 
-/// A case in a line: what is true, and who is wrong.
+/// A case in a line: the truth, and the number of wrong answers.
 pub(super) fn summary(number: usize, title: &str, replay: &Replay) -> String {
     let wrong = |exact: bool| {
         let of = replay.answers.iter().filter(|a| a.tier.is_exact() == exact);
@@ -143,13 +143,13 @@ fn truth(replay: &Replay, lines: &mut Lines) {
     }
 }
 
-/// What the exact clipper needed.
+/// The stages that the exact clipper needed.
 fn stages(replay: &Replay, lines: &mut Lines) {
     let Some(own) = replay.own() else {
         return;
     };
     let s = own.verdict.stages;
-    let said = if s == frusta::StageCounts::default() {
+    let stages = if s == frusta::StageCounts::default() {
         "floating point settled it at once".to_owned()
     } else {
         let counts = [
@@ -159,11 +159,11 @@ fn stages(replay: &Replay, lines: &mut Lines) {
             (s.expansions, "by expansions"),
             (s.integers, "by integers"),
         ];
-        let said = counts.iter().filter(|(n, _)| *n > 0);
-        let said: Vec<String> = said.map(|(n, what)| format!("{n} {what}")).collect();
-        format!("predicates: {}", said.join(", "))
+        let used = counts.iter().filter(|(n, _)| *n > 0);
+        let used: Vec<String> = used.map(|(n, what)| format!("{n} {what}")).collect();
+        format!("predicates: {}", used.join(", "))
     };
-    lines.add("exact vw", &said);
+    lines.add("exact vw", &stages);
 }
 
 /// Tier by tier; an answer that all algorithms share is a row.
@@ -196,12 +196,12 @@ fn table(replay: &Replay, out: &mut String) {
     for text in LEGEND.lines() {
         line(text.to_owned());
     }
-    if !replay.singles {
-        line("Not in f32: its numbers are too few for this segment's coordinates.".to_owned());
+    if !replay.has_f32 {
+        line("Not in f32, which does not have this segment's coordinates.".to_owned());
     }
 }
 
-/// The same answer; the way to it does not count.
+/// Whether two answers are the same, however they were found.
 fn same(a: &Answer, b: &Answer) -> bool {
     let (a, b) = (&a.verdict, &b.verdict);
     a.clip == b.clip && a.refusal == b.refusal && a.errors == b.errors && a.remarks() == b.remarks()

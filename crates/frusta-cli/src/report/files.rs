@@ -6,7 +6,7 @@
 use super::data::{Report, Witness};
 use super::{Page, page};
 use crate::failure::Failure;
-use crate::whole_file::WholeFile;
+use crate::io::atomic_file::AtomicFile;
 use frusta::samples::Family;
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -16,26 +16,26 @@ use std::path::{Path, PathBuf};
 /// The files of a report, begun.
 pub(crate) struct Folder {
     folder: PathBuf,
-    json: WholeFile,
-    rows: WholeFile,
-    witnesses: WholeFile,
-    lines: WholeFile,
-    html: WholeFile,
-    panels: Vec<(Family, WholeFile)>,
+    json: AtomicFile,
+    rows: AtomicFile,
+    witnesses: AtomicFile,
+    lines: AtomicFile,
+    html: AtomicFile,
+    panels: Vec<(Family, AtomicFile)>,
 }
 
 impl Folder {
     /// Makes the folder where there is none, and begins the files.
     pub(crate) fn begin(folder: &Path, families: &[Family]) -> Result<Self, Failure> {
         make(folder)?;
-        let begin = |name| WholeFile::create(&folder.join(name));
+        let begin = |name| AtomicFile::create(&folder.join(name));
         let (json, rows) = (begin("report.json")?, begin("rows.csv")?);
         let (witnesses, lines) = (begin("witnesses.csv")?, begin("witnesses.txt")?);
         let html = begin("report.html")?;
         let panels = folder.join("panels");
         make(&panels)?;
         let panel = |&family: &Family| {
-            let file = WholeFile::create(&panels.join(format!("{family}.svg")))?;
+            let file = AtomicFile::create(&panels.join(format!("{family}.svg")))?;
             Ok((family, file))
         };
         Ok(Self {
@@ -63,7 +63,7 @@ impl Folder {
         let data = [self.rows, self.witnesses, self.lines, self.json];
         let panels = self.panels.into_iter().map(|(_, file)| file);
         let mut files = data.into_iter().chain(panels).chain([self.html]);
-        files.try_for_each(WholeFile::finish)
+        files.try_for_each(AtomicFile::finish)
     }
 
     /// Records as CSV, their keys first.

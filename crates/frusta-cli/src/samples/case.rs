@@ -2,12 +2,12 @@
 //!
 //! A sample's expectation has parameters and faces; the points follow, exactly:
 //! `p + t (q - p)` of dyadic numbers is dyadic. It is computed with rationals,
-//! and that a double equals it is checked and not assumed.
+//! and checked to be an `f64`.
 
 use super::labels;
 use crate::draw::Subject;
 use crate::failure::Failure;
-use crate::number::short;
+use crate::io::number::short;
 use frusta::math::hex;
 use frusta::oracle::round_nearest;
 use frusta::samples::{ExpectedPart, FrameSample, Placement, Solid};
@@ -28,10 +28,7 @@ impl Case {
         let segment = placement.segment(&sample.segment);
         let part = match &sample.expected.part {
             Some(part) => Some(exact_part(&segment, part).ok_or_else(|| {
-                Failure::new(format_args!(
-                    "{}: no double equals its answer",
-                    sample.name()
-                ))
+                Failure::new(format_args!("{}: no f64 equals its answer", sample.name()))
             })?),
             None => None,
         };
@@ -43,7 +40,7 @@ impl Case {
         })
     }
 
-    /// What a drawing of it shows.
+    /// The subject of its drawing.
     pub(super) fn subject<'a>(&'a self, solid: &'a Solid) -> Subject<'a> {
         Subject {
             solid,
@@ -128,7 +125,7 @@ fn exact_part(segment: &Segment<f64>, part: &ExpectedPart) -> Option<Part<f64>> 
     })
 }
 
-/// `p + t (q - p)`; `None` if no double equals a coordinate.
+/// `p + t (q - p)`; `None` if a coordinate is not an `f64`.
 fn exact_point(segment: &Segment<f64>, t: f64) -> Option<Vec3<f64>> {
     let t = BigRational::from_float(t)?;
     let mut point = Vec3::default();

@@ -17,7 +17,7 @@ pub(super) struct Choice {
 }
 
 impl Choice {
-    /// What was chosen, by feature.
+    /// The chosen samples, by feature.
     pub(super) fn samples(&self) -> Vec<FrameSample> {
         samples(&self.solid, self.near_misses)
     }
@@ -34,7 +34,7 @@ pub(super) fn samples(solid: &Solid, with_near_misses: bool) -> Vec<FrameSample>
     joined.collect()
 }
 
-/// Reads a solid's name; `clap` lists all of them where it fits none.
+/// Reads a solid's name; `clap` lists all names if it is unknown.
 pub(super) fn solid() -> impl TypedValueParser<Value = Solid> {
     let names = PossibleValuesParser::new(Solid::ALL.map(|s| s.name));
     names.try_map(|name| {
@@ -61,7 +61,7 @@ pub(super) fn find(solid: &Solid, name: &str) -> Result<FrameSample, Failure> {
 /// The four names most like a text, those that begin with it first: a feature's
 /// name alone gives its samples.
 fn nearest<'a>(text: &str, names: &'a [String]) -> Vec<&'a str> {
-    // No name is half as long; a long text takes time and is like none.
+    // No name is half as long, and comparing a long text takes time.
     let text: String = text.chars().take(64).collect();
     let mut ranked: Vec<&str> = names.iter().map(String::as_str).collect();
     ranked.sort_by_cached_key(|name| (!name.starts_with(&text), distance(&text, name)));
@@ -69,7 +69,7 @@ fn nearest<'a>(text: &str, names: &'a [String]) -> Vec<&'a str> {
     ranked
 }
 
-/// How many letters to insert, delete or replace (Levenshtein), row by row.
+/// The Levenshtein distance: letters to insert, delete or replace; row by row.
 fn distance(a: &str, b: &str) -> usize {
     let b: Vec<char> = b.chars().collect();
     let mut row: Vec<usize> = (0..=b.len()).collect();

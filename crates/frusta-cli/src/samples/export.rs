@@ -4,10 +4,10 @@
 use super::case::Case;
 use super::choice;
 use crate::failure::Failure;
-use crate::number;
-use crate::output::csv;
+use crate::io::atomic_file::AtomicFile;
+use crate::io::number;
+use crate::io::output::csv;
 use crate::terminal::print;
-use crate::whole_file::WholeFile;
 use clap::{Args, ValueEnum};
 use frusta::Frustum;
 use frusta::samples::{Placement, Solid};
@@ -20,7 +20,7 @@ use std::path::{Path, PathBuf};
 #[derive(Args, Debug)]
 #[command(after_long_help = FILES)]
 pub(super) struct ExportArgs {
-    /// The folder to write to; made if there is none
+    /// The folder to write to; which is created if need be
     #[arg(value_name = "DIR")]
     folder: PathBuf,
     /// Only this solid; may be given several times [default: all]
@@ -59,7 +59,7 @@ impl Place {
     }
 }
 
-/// A file's name and what is in it.
+/// A file's name and contents.
 type Content = (String, Vec<u8>);
 
 /// Runs the command.
@@ -91,7 +91,7 @@ pub(super) fn run(args: &ExportArgs) -> Result<(), Failure> {
     files.push(("samples.json".to_owned(), json(&Value::from(all))));
     prepare(&args.folder, &files)?;
     for (name, content) in &files {
-        let mut file = WholeFile::create(&args.folder.join(name))?;
+        let mut file = AtomicFile::create(&args.folder.join(name))?;
         file.write(content)?;
         file.finish()?;
     }
@@ -147,7 +147,7 @@ fn prepare(folder: &Path, files: &[Content]) -> Result<(), Failure> {
             return Err(Failure::in_file(
                 folder,
                 format_args!(
-                    "holds {}, which is no file of this export; choose an empty folder",
+                    "holds {}, which is not a file of this export; choose an empty folder",
                     name.display()
                 ),
             ));
@@ -165,7 +165,7 @@ Files, three for each solid and placement
                       has to write, byte for byte; see `frusta clip --help` for the columns
   samples.json        once: all of it as one array: names, labels, numbers also in hexadecimal,
                       reasons
-Decimals are the shortest that read back to the same double. Every number of the inputs and of the
+Decimals are the shortest that read back to the same f64. Every number of the inputs and of the
 answers is exact, so a program that is right gives these parameters, points and sets and no others.
 
 A folder that holds anything else is refused; files of an earlier export are replaced.

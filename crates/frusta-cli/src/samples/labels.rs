@@ -2,7 +2,7 @@
 
 use frusta::samples::{Crossing, FrameSample, Intersections};
 
-/// In how many points the segment meets the surface.
+/// The number of points in which the segment meets the surface.
 pub(super) fn intersections(sample: &FrameSample) -> &'static str {
     match sample.labels.intersections {
         Intersections::None => "none",

@@ -4,7 +4,7 @@ use super::case::{Case, sets};
 use super::choice::Choice;
 use super::labels;
 use crate::failure::Failure;
-use crate::number::short;
+use crate::io::number::short;
 use crate::terminal::print;
 use clap::Args;
 use frusta::FaceSet;
@@ -50,7 +50,7 @@ const COLUMNS: [&str; 9] = [
     "coplanar",
 ];
 
-/// Columns as wide as what is in them.
+/// Columns as wide as their contents.
 fn table(cases: &[Case]) -> String {
     let heading = COLUMNS.map(str::to_owned);
     let rows: Vec<_> = [heading].into_iter().chain(cases.iter().map(row)).collect();
@@ -95,8 +95,8 @@ Columns
   name       the feature and how the segment lies to it: touching (one common point), crossing
              (through it into the interior), contained (in it; a vertex: from it inwards), apart (a
              near miss)
-  points direction  the labels of the paper that the 78 groups are from: in how many points the
-             segment meets the surface; left-right if it is no steeper than 1 in the plane of the
+  points direction  the labels of the paper that the 78 groups are from: the number of points in
+             which the segment meets the surface; left-right if it is no steeper than 1 in the plane of the
              frame's x and z, else up-down. The third label, the position, is in the name.
   class      outside, touch, boundary, inside or cross
   t0 t1      the parameters of the part in the frustum, exactly

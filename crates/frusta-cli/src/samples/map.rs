@@ -1,25 +1,25 @@
-//! `frusta samples map`: what two arithmetics say of inputs that differ by ulps.
+//! `frusta samples map`: the answers of two arithmetics for inputs that differ by ulps.
 //!
 //! After the pictures of Kettner, Mehlhorn, Pion, Schirra, Yap, "Classroom examples
 //! of robustness problems in geometric computations" (2008): one cell is one
 //! representable input, its colour the answer.
 
+use crate::draw::svg::Svg;
+use crate::draw::{self, Palette, Theme};
 use crate::failure::Failure;
-use crate::picture::{self, Palette, Theme, escaped};
 use crate::terminal::print;
 use clap::{Args, ValueEnum};
 use frusta::{
     Accuracy, Class, EndRect, Frustum, Pose, Segment, SegmentClip, SegmentClipper, Shape, Vec3,
     VwProjection,
 };
-use std::fmt::Write as _;
 use std::path::PathBuf;
 
 /// A map of answers near a feature, by plain and by exact arithmetic, an ulp a cell
 #[derive(Args, Debug)]
 #[command(after_long_help = EXAMPLES)]
 pub(super) struct MapArgs {
-    /// Near what
+    /// The feature
     place: Place,
     /// The picture: .svg or .png
     #[arg(short, long, value_name = "FILE")]
@@ -29,7 +29,7 @@ pub(super) struct MapArgs {
     theme: Theme,
 }
 
-/// What the segments come near to.
+/// The feature that the segments pass by.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum Place {
     /// Segments that end near the middle of the right face
@@ -61,7 +61,7 @@ pub(super) fn run(args: &MapArgs) -> Result<(), Failure> {
     let maps = maps.map(|(title, clipper)| (title, Map::new(&frustum, args.place, &clipper)));
     let wrong = maps[0].1.differences(&maps[1].1);
     let svg = draw(&maps, args.place, wrong, args.theme.palette());
-    picture::save(&args.output, &svg)?;
+    draw::save(&args.output, &svg)?;
     print(&format!(
         "{} inputs, {wrong} of them answered wrongly by plain arithmetic, in {}\n",
         CELLS * CELLS,
@@ -74,8 +74,8 @@ const WIDE: f64 = 3.671_875;
 /// Where that is.
 const FAR: f64 = 7.0;
 
-/// Where the segments' ends are that move: near the world's origin, where doubles
-/// are dense, as models are; the camera stands off.
+/// Where the moved ends are: near the world's origin, where `f64`s are dense, as models are; the
+/// camera is away from it.
 const TARGET: Vec3<f64> = Vec3::new(0.3, 0.2, 0.4);
 
 impl Place {
@@ -105,14 +105,14 @@ impl Place {
         pose
     }
 
-    /// Opposite sides mirror each other; their slope, 3.625 over 7, is no double.
+    /// Opposite sides mirror each other; their slope, 3.625 over 7, is not an `f64`.
     fn frustum(self) -> Result<Frustum, frusta::FrustumError> {
         let rect = |z, w: f64| EndRect::new(z, -w, w, -w, w);
         let (near, far) = (rect(0.0, 0.046_875), rect(FAR, WIDE));
         Frustum::new(self.pose(), Shape::Finite { near, far })
     }
 
-    /// The segment of a cell: one end moved by so many ulps of the world's x and z.
+    /// The segment of a cell: one end moved by `x` and `z` ulps along the world's x and z.
     fn moved(self, x: i32, z: i32) -> Segment<f64> {
         let [fixed, moved] = self.segment().map(|p| self.pose().to_world(p.into()));
         let ulps = |v: f64, n: i32| v + f64::from(n) * (v.next_up() - v);
@@ -188,39 +188,49 @@ impl Map {
     }
 
     /// Cells of one colour in a row are one rectangle.
-    fn draw(&self, svg: &mut String, left: i32, palette: &Palette) {
+    fn draw(&self, svg: &mut Svg, left: i32, palette: &Palette) {
         for (y, row) in self.0.iter().enumerate() {
             let mut x = 0;
             for run in row.chunk_by(|a, b| a == b) {
-                let _ = write!(
-                    svg,
-                    "<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{CELL}\" fill=\"{}\"/>",
-                    left + x * CELL,
-                    HEAD + y as i32 * CELL,
-                    run.len() as i32 * CELL,
-                    run[0].colour(palette)
-                );
-                x += run.len() as i32;
+                let width = run.len() as i32;
+                let corner = [left + x * CELL, HEAD + y as i32 * CELL];
+                let colour = run[0].colour(palette);
+                area(svg, corner, [width * CELL, CELL], colour);
+                x += width;
             }
         }
     }
 }
 
+fn area(svg: &mut Svg, corner: [i32; 2], size: [i32; 2], colour: &str) {
+    let rect = svg.element("rect").rectangle(corner, size);
+    rect.attribute("fill", colour).empty();
+}
+
+fn label(svg: &mut Svg, [x, y]: [i32; 2], text: &str) {
+    let element = svg.element("text").attribute("x", x);
+    element.attribute("y", y).text(text);
+}
+
 fn draw(maps: &[(&str, Map); 2], place: Place, wrong: usize, palette: &Palette) -> String {
     let side = CELLS * CELL;
     let (width, height) = (2 * side + 3 * MARGIN, HEAD + side + FOOT);
-    let mut svg = format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
-         font-family=\"sans-serif\" font-size=\"13\" fill=\"{}\" shape-rendering=\"crispEdges\">\
-         <rect width=\"100%\" height=\"100%\" fill=\"{}\"/>",
-        palette.ink, palette.page
-    );
-    let text = |svg: &mut String, x: i32, y: i32, text: &str| {
-        let _ = write!(svg, "<text x=\"{x}\" y=\"{y}\">{}</text>", escaped(text));
-    };
+    let mut svg = Svg::in_one_line();
+    svg.document()
+        .attribute("width", width)
+        .attribute("height", height)
+        .attribute("font-family", "sans-serif")
+        .attribute("font-size", 13)
+        .attribute("fill", palette.ink)
+        .attribute("shape-rendering", "crispEdges")
+        .open();
+    let page = svg.element("rect").attribute("width", "100%");
+    page.attribute("height", "100%")
+        .attribute("fill", palette.page)
+        .empty();
     for (i, (title, map)) in (0..).zip(maps) {
         let left = MARGIN + i * (side + MARGIN);
-        text(&mut svg, left, HEAD - 12, title);
+        label(&mut svg, [left, HEAD - 12], title);
         map.draw(&mut svg, left, palette);
     }
     let mut x = MARGIN;
@@ -231,29 +241,26 @@ fn draw(maps: &[(&str, Map); 2], place: Place, wrong: usize, palette: &Palette) 
             shown.push(answer);
         }
     }
+    let top = HEAD + side + 14;
     for answer in shown {
-        let (top, colour) = (HEAD + side + 14, answer.colour(palette));
-        let _ = write!(
-            svg,
-            "<rect x=\"{x}\" y=\"{top}\" width=\"14\" height=\"14\" fill=\"{colour}\"/>"
-        );
-        text(&mut svg, x + 20, top + 12, answer.name());
+        area(&mut svg, [x, top], [14, 14], answer.colour(palette));
+        label(&mut svg, [x + 20, top + 12], answer.name());
         x += 44 + 8 * answer.name().len() as i32;
     }
-    let said = format!(
+    let summary = format!(
         "{}: a cell an ulp; {wrong} of {} wrong",
         place.title(),
         CELLS * CELLS
     );
-    text(&mut svg, MARGIN, HEAD + side + 52, &said);
-    svg.push_str("</svg>\n");
-    svg
+    label(&mut svg, [MARGIN, HEAD + side + 52], &summary);
+    svg.close("svg");
+    svg.finish() + "\n"
 }
 
 const EXAMPLES: &str = "\
 A cell is a segment: the next one to the right has an end one ulp farther along x, the next one
 above one ulp farther along z. Exact decisions draw the line where it is; plain arithmetic rounds,
-and says of neighbouring inputs what it likes.
+and gives neighbouring inputs different answers at random.
 
 Examples
   frusta samples map face -o face.png

@@ -3,11 +3,11 @@
 
 mod case;
 mod choice;
-mod draw;
 mod export;
 mod labels;
 mod list;
 mod map;
+mod pictures;
 mod sheet;
 mod show;
 
@@ -62,7 +62,7 @@ Examples
   frusta samples export samples
       inputs and exact answers as files, to test any other program
   frusta samples map edge -o map.png
-      what plain and exact arithmetic say of inputs that differ by ulps
+      the answers of plain and exact arithmetic for inputs that differ by ulps
 
 Exit codes:
   0  done

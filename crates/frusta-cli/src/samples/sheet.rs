@@ -2,9 +2,9 @@
 
 use super::case::Case;
 use super::choice::Choice;
-use super::draw;
+use super::pictures;
+use crate::draw::{Theme, save};
 use crate::failure::Failure;
-use crate::picture::{self, Theme};
 use crate::terminal::print;
 use clap::Args;
 use frusta::samples::Placement;
@@ -31,8 +31,8 @@ pub(super) fn run(args: &SheetArgs) -> Result<(), Failure> {
     let cases: Vec<Case> = cases
         .map(|sample| Case::new(sample, &placement))
         .collect::<Result<_, _>>()?;
-    let sheet = draw::sheet(solid, &cases, args.theme.palette());
-    picture::save(&args.output, &sheet)?;
+    let sheet = pictures::sheet(solid, &cases, args.theme.palette());
+    save(&args.output, &sheet)?;
     print(&format!(
         "{} samples in {}\n",
         cases.len(),
@@ -43,7 +43,7 @@ pub(super) fn run(args: &SheetArgs) -> Result<(), Failure> {
 const EXAMPLES: &str = "\
 A cell is a sample: the frustum from outside, with the feature highlighted, and the segment; beside
 it the trapezoids TV (x over z) and TW (y over z) with the segment's projections. All cells have one
-scale, but for near misses; a segment that leaves its picture goes on. A row has two features.
+scale, except near misses; a segment that leaves its picture goes on. A row has two features.
 
 Examples
   frusta samples sheet -o samples.png

@@ -2,11 +2,11 @@
 
 use super::case::{Case, point, sets};
 use super::choice;
-use super::draw;
 use super::labels;
+use super::pictures;
+use crate::draw::{Theme, save};
 use crate::failure::Failure;
-use crate::number::short;
-use crate::picture::{self, Theme};
+use crate::io::number::short;
 use crate::terminal::print;
 use clap::Args;
 use frusta::math::hex::Hex;
@@ -48,8 +48,8 @@ pub(super) fn run(args: &ShowArgs) -> Result<ExitCode, Failure> {
     let case = Case::new(choice::find(&args.solid, &args.name)?, &placement)?;
     let found = frustum.clip_segment(&case.segment).map_err(Failure::new)?;
     if let Some(file) = &args.output {
-        let page = draw::page(&args.solid, &frustum, &case, args.theme.palette());
-        picture::save(file, &page)?;
+        let page = pictures::page(&args.solid, &frustum, &case, args.theme.palette());
+        save(file, &page)?;
     }
     print(&if args.json {
         let mut object = case.to_json(&args.solid, "identity", &frustum);
@@ -71,7 +71,7 @@ fn agrees(found: &SegmentClip<f64>, case: &Case) -> bool {
     *found == case.expected
 }
 
-/// What is known and what was found, for people.
+/// The expected and the found answer, for people.
 fn text(solid: &Solid, frustum: &Frustum, case: &Case, found: &SegmentClip<f64>) -> String {
     let sample = &case.sample;
     let mut out = format!("{} of the solid {}\n\n", sample.name(), solid.name);
@@ -131,7 +131,7 @@ fn shape(shape: &Shape) -> Vec<String> {
     vec![end("near", shape.near()), far]
 }
 
-/// What of the segment's projections is in the two trapezoids.
+/// The parameters of the segment's projections that are in the two trapezoids.
 pub(super) fn intervals(frustum: &Frustum, segment: &Segment<f64>) -> [Option<Interval>; 2] {
     let [p, q] = [segment.start, segment.end].map(|p| frustum.pose().to_frame(p));
     [

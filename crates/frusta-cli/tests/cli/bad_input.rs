@@ -39,11 +39,11 @@ fn csv() {
         ),
         (
             "1,2,3,4,5,6\n\n1,2,3,4,5,\n",
-            ["line 3", "z1: \"\" is no number"],
+            ["line 3", "z1: \"\" is not a number"],
         ),
         (
             "1,2,3,4,5,6\n1,2,3,4,5,6m\n",
-            ["line 2", "z1: \"6m\" is no number"],
+            ["line 2", "z1: \"6m\" is not a number"],
         ),
         ("1,2,nan,4,5,6\n", ["line 1", "z0: NaN; it must be finite"]),
         ("1,2,3,-inf,5,6\n", ["line 1", "x1: \"-inf\" is infinite"]),
@@ -53,7 +53,7 @@ fn csv() {
         ),
         (
             "1,2,3,4,5,0x1.00000000000001p0\n",
-            ["line 1", "z1: no double equals"],
+            ["line 1", "z1: no f64 equals"],
         ),
         ("x0,y0,z0,x1,y1\n1,2,3,4,5\n", ["line 1", "the column z1"]),
         (
@@ -188,7 +188,7 @@ fn gltf_documents() {
         (
             "/buffers/0/uri",
             json!("https://example.org/a.bin"),
-            "its uri is no file",
+            "its uri is not a file",
         ),
         (
             "/asset",
@@ -261,11 +261,7 @@ fn gltf_with_far_instances_in_single_precision() {
         "--target",
         "0,0,0",
     ];
-    refuse(
-        &folder,
-        &args,
-        &["node 2, mesh 0, edge 0", "must be finite"],
-    );
+    refuse(&folder, &args, &["node 2, edge 0", "must be finite"]);
 }
 
 #[test]
@@ -284,12 +280,12 @@ fn truncated_and_lying_binaries() {
     refuse_file(
         "a.glb",
         with(8, u32::MAX),
-        &["byte 8", "the header says 4294967295 bytes"],
+        &["byte 8", "the header gives 4294967295 bytes"],
     );
     refuse_file(
         "a.glb",
         with(12, u32::MAX),
-        &["byte 12", "the JSON chunk says"],
+        &["byte 12", "the JSON chunk gives"],
     );
     refuse_file(
         "a.glb",
@@ -303,7 +299,7 @@ fn truncated_and_lying_binaries() {
     refuse_file(
         "a.glb",
         with(kind - 4, u32::MAX),
-        &["the BIN chunk says 4294967295 bytes"],
+        &["the BIN chunk gives 4294967295 bytes"],
     );
     refuse_file("a.glb", with(16, 0), &["byte 16", "expected a JSON chunk"]);
 }
@@ -349,7 +345,7 @@ fn frustum_files() {
         ),
         (
             put(&pair, "origin", json!([0, "0x1g", 0])),
-            "origin[1]: \"0x1g\" is no number",
+            "origin[1]: \"0x1g\" is not a number",
         ),
         (
             put(&pair, "axes", json!([[1, 0, 0], [0, 1, 0], [1, 1, 0]])),
@@ -380,7 +376,7 @@ fn frustum_files() {
         (put(&camera, "ortho_height", json!(2)), "exclude each other"),
         (
             put(&camera, "far", json!("never")),
-            "far: \"never\" is no number",
+            "far: \"never\" is not a number",
         ),
         (put(&camera, "target", camera["eye"].clone()), "view.json"),
         (put(&camera, "fovy_deg", json!(180)), "view.json"),

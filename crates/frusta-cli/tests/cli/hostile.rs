@@ -4,7 +4,6 @@
 use super::{Folder, WIDE, clip, fixture, started, text};
 use std::io::Write;
 use std::process::{Command, Output};
-use std::time::Duration;
 
 /// One small file of each text format.
 fn texts() -> [(&'static str, String); 6] {
@@ -110,7 +109,6 @@ fn a_pipe_may_give_its_first_bytes_one_by_one() {
         let mut stdin = child.stdin.take().unwrap();
         for byte in &bytes[..3] {
             stdin.write_all(&[*byte]).unwrap();
-            std::thread::sleep(Duration::from_millis(20));
         }
         let rest = bytes[3..].to_vec();
         let feeder = std::thread::spawn(move || drop(stdin.write_all(&rest)));
@@ -159,9 +157,11 @@ fn a_pipe_with_a_name_is_read_once() {
         let run = clip([&[file.as_str()], &args[..]].concat());
         let message = text(&run.stderr);
         assert_eq!(run.status.code(), Some(code), "{name}: {message}");
-        // What is refused unread has left the writer waiting for a reader.
-        drop(std::fs::File::options().read(true).write(true).open(&file));
+        // The writer of a pipe that was refused unread may still wait for a reader, or may not
+        // have begun to: there is one until it is done.
+        let reader = std::fs::File::options().read(true).write(true).open(&file);
         feeder.join().unwrap();
+        drop(reader);
     }
 }
 
@@ -203,7 +203,7 @@ fn an_output_that_is_a_link_stays_one() {
     }
     let output = run("ring.csv");
     assert_eq!(output.status.code(), Some(2));
-    assert!(text(&output.stderr).contains("a link in a ring"));
+    assert!(text(&output.stderr).contains("a cycle of links"));
     let before = ["b", "none.csv", "one.csv", "ring.csv", "two.csv"];
     assert_eq!(folder.files(), before);
 }
@@ -303,8 +303,8 @@ fn buffers_are_plain_files() {
     let cubes = std::fs::read_to_string(fixture("cubes.gltf")).unwrap();
     let mut document: serde_json::Value = serde_json::from_str(&cubes).unwrap();
     for (uri, length, part) in [
-        ("/dev/zero", 1_u64 << 40, "/dev/zero: no plain file"),
-        (".", 1, "no plain file"),
+        ("/dev/zero", 1_u64 << 40, "/dev/zero: not a regular file"),
+        (".", 1, "not a regular file"),
         ("none.bin", 1, "No such file"),
         ("a.gltf", 1 << 40, "byteLength is 1099511627776"),
     ] {
@@ -332,7 +332,8 @@ fn a_frustum_has_an_end() {
 fn too_many_threads_are_refused() {
     let folder = Folder::new();
     let (mut done, mut refused) = (0, 0);
-    for threads in (60..=180).step_by(8) {
+    // Few fit by far, many never do; how many exactly depends on the program's own size.
+    for threads in [1, 8, 24].into_iter().chain((60..=180).step_by(8)) {
         let run = Command::new("sh")
             .args(["-c", "ulimit -v 300000; exec \"$0\" \"$@\""])
             .arg(env!("CARGO_BIN_EXE_frusta"))

@@ -2,6 +2,7 @@
 
 mod bad_input;
 mod bad_table;
+mod cases;
 mod formats;
 mod geo;
 mod hostile;

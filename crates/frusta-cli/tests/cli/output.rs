@@ -1,4 +1,4 @@
-//! What is written.
+//! The output files.
 
 use super::{Folder, clip, fixture, random_segments, text};
 use frusta::{Accuracy, EndRect, Frustum, Pose, Real, Shape};

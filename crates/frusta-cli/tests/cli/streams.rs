@@ -70,7 +70,7 @@ fn a_pipe_needs_a_format_and_a_view() {
         ),
         (
             [&["-", "--from", "csv"], &WIDE[..]].concat(),
-            "standard input: line 2: x1: \"x\" is no number",
+            "standard input: line 2: x1: \"x\" is not a number",
         ),
         (
             [&["-", "--from", "obj", "--edges", "lines"], &WIDE[..]].concat(),

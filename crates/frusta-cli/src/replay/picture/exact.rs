@@ -1,9 +1,9 @@
 //! From the input's numbers to numbers that can be drawn, exactly.
 //!
-//! A case may have coordinates from 5e-324 to 1e300, and what is to be seen may be one
+//! A case may have coordinates from 5e-324 to 1e300, and a detail to be seen may be one
 //! unit in the last place. So points are rational until they are in a window: a box in
 //! the frustum's frame that becomes a cube of size 2 about zero. Only there are they
-//! rounded, and what is not in the window is cut off before.
+//! rounded, and everything outside the window is cut off before.
 
 use frusta::oracle::round_nearest;
 use frusta::{Frustum, Pose, Shape, Vec3};
@@ -16,7 +16,7 @@ pub(super) type Exact = BigRational;
 /// An exact point.
 pub(super) type Point = [Exact; 3];
 
-/// A double as it is; no line has others than finite ones.
+/// An `f64` as a fraction; the numbers of a line are finite.
 pub(super) fn exact(value: f64) -> Exact {
     Exact::from_float(value).unwrap_or_else(Exact::zero)
 }

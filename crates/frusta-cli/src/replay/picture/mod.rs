@@ -1,5 +1,6 @@
-//! A case drawn: the frustum in space, its two trapezoids, the segment with what is
-//! truly inside, wrong answers; and closely the spot where they part from the truth.
+//! The picture of a case: the frustum in space, its two trapezoids, the segment with the
+//! part that is truly inside, and wrong answers; enlarged, the spot where they differ from
+//! the truth.
 
 mod exact;
 mod scene;
@@ -10,10 +11,10 @@ use super::answers::Replay;
 use super::decimal::decimal;
 use super::text::figure;
 use crate::draw::{
-    Camera, Canvas, Entries, Frame, Pen, Place, Plane, Sizes, Subject, Type, all_corners,
+    Camera, Canvas, Entries, Font, Frame, Pen, Place, Plane, Sizes, Subject, all_corners,
     class_colour, draw_legend, draw_planar, draw_spatial,
 };
-use crate::picture::{Palette, wrapped};
+use crate::draw::{Palette, wrapped};
 use exact::between;
 use frusta::{Class, Segment, SegmentClip, Vec3};
 use frusta_lab::SurveyTier;
@@ -52,11 +53,11 @@ pub(super) fn picture(
     } else {
         Vec::new()
     };
-    let said = summary(replay);
+    let summary = summary(replay);
     let below = TOP + LARGE[1] + 56.0;
     let bottom = match &spot {
         Some(_) => below + SPOT + 42.0,
-        None => below + WORDS * said.len() as f64 + 10.0,
+        None => below + WORDS * summary.len() as f64 + 10.0,
     };
     let height = bottom + 26.0 + LINE * line.len() as f64;
     let mut canvas = Canvas::new([WIDTH, height], palette);
@@ -65,14 +66,14 @@ pub(super) fn picture(
     stretched(&mut canvas, &scene);
     match &spot {
         Some(spot) => closely(&mut canvas, replay, &scene, spot, below),
-        None => words(&mut canvas, [MARGIN, below], &said),
+        None => words(&mut canvas, [MARGIN, below], &summary),
     }
     let entries = Entries {
         feature: false,
         classes: false,
     };
     draw_legend(&mut canvas, [MARGIN, bottom], 13.0, entries);
-    let small = Type::new(canvas.palette, 12.0, false);
+    let small = Font::new(canvas.palette, 12.0, false);
     for (i, text) in line.iter().enumerate() {
         canvas.text([MARGIN, bottom + 34.0 + LINE * i as f64], text, small);
     }
@@ -81,14 +82,14 @@ pub(super) fn picture(
 
 fn heading(canvas: &mut Canvas, replay: &Replay, title: &str) {
     let class = replay.truth.class;
-    let large = Type::new(canvas.palette, 24.0, true);
+    let large = Font::new(canvas.palette, 24.0, true);
     let title = if title.is_empty() {
         "A replayed case"
     } else {
         title
     };
     canvas.text([MARGIN, 46.0], title, large);
-    let coloured = Type {
+    let coloured = Font {
         colour: class_colour(canvas.palette, class),
         ..large
     };
@@ -103,16 +104,16 @@ fn heading(canvas: &mut Canvas, replay: &Replay, title: &str) {
         wrong(false),
         wrong(true)
     );
-    let plain = Type::new(canvas.palette, 15.0, false);
+    let plain = Font::new(canvas.palette, 15.0, false);
     canvas.text([MARGIN, 74.0], &line, plain);
 }
 
 /// All of the frustum, in space and in the two planes.
 fn whole(canvas: &mut Canvas, replay: &Replay, scene: &Scene) {
-    let strand = scene.strand(replay);
+    let piece = scene.near_piece(replay);
     let wrong = wrong_pieces(replay, scene);
     let mut fit = all_corners(&scene.solid);
-    fit.extend(strand.iter().flat_map(|s| [s.segment.start, s.segment.end]));
+    fit.extend(piece.iter().flat_map(|s| [s.segment.start, s.segment.end]));
     fit.extend(wrong.iter().flatten());
     // Without a piece near the frustum there is a piece that nothing is drawn of.
     let nothing = SegmentClip::OUTSIDE;
@@ -120,9 +121,9 @@ fn whole(canvas: &mut Canvas, replay: &Replay, scene: &Scene) {
     let subject = Subject {
         solid: &scene.solid,
         feature: None,
-        segment: strand.as_ref().map_or(aside, |s| s.segment),
-        clip: strand.as_ref().map_or(&nothing, |s| &s.clip),
-        shown: strand.as_ref().map_or([0.0, 0.0], |s| s.shown),
+        segment: piece.as_ref().map_or(aside, |s| s.segment),
+        clip: piece.as_ref().map_or(&nothing, |s| &s.clip),
+        shown: piece.as_ref().map_or([0.0, 0.0], |s| s.shown),
     };
     canvas.paper([MARGIN, TOP], LARGE);
     canvas.inside([MARGIN, TOP], LARGE, |canvas| {
@@ -143,9 +144,9 @@ fn whole(canvas: &mut Canvas, replay: &Replay, scene: &Scene) {
 }
 
 fn name(canvas: &mut Canvas, plane: Plane, size: Place, scene: &Scene) {
-    let bold = Type::new(canvas.palette, 15.0, true);
+    let bold = Font::new(canvas.palette, 15.0, true);
     canvas.text([12.0, 24.0], plane.name(), bold);
-    let small = Type::new(canvas.palette, 12.0, false);
+    let small = Font::new(canvas.palette, 12.0, false);
     canvas.text([46.0, 24.0], &format!("{} upwards", plane.across()), small);
     let sign = if scene.solid.shape.direction().sign() > 0.0 {
         ""
@@ -156,7 +157,7 @@ fn name(canvas: &mut Canvas, plane: Plane, size: Place, scene: &Scene) {
     canvas.text_before([size[0] - 12.0, size[1] - 12.0], &depth, small);
 }
 
-/// What wrong answers say is inside, as far as it is near the frustum.
+/// The parts of wrong answers, as far as they are near the frustum.
 fn wrong_pieces(replay: &Replay, scene: &Scene) -> Vec<[Vec3<f64>; 2]> {
     let wrong = replay.answers.iter().filter(|a| !a.verdict.is_right());
     let mut pieces: Vec<[Vec3<f64>; 2]> = Vec::new();
@@ -184,14 +185,14 @@ fn mark(canvas: &mut Canvas, pieces: &[[Vec3<f64>; 2]], place: impl Fn(Vec3<f64>
     }
 }
 
-/// What is not to one scale.
+/// A line about axes that are not to one scale.
 fn stretched(canvas: &mut Canvas, scene: &Scene) {
     let names = ["x", "y", "z"].into_iter().zip(scene.window.stretch());
     let names: Vec<String> = names
         .filter(|(_, s)| *s > 1.01)
         .map(|(name, s)| match s.is_finite() {
             true => format!("{name} {} times", figure(s)),
-            false => format!("{name} beyond all doubles"),
+            false => format!("{name} beyond the range of f64"),
         })
         .collect();
     let text = if names.is_empty() {
@@ -202,7 +203,7 @@ fn stretched(canvas: &mut Canvas, scene: &Scene) {
             names.join(" and ")
         )
     };
-    let small = Type::new(canvas.palette, 13.0, false);
+    let small = Font::new(canvas.palette, 13.0, false);
     canvas.text([MARGIN, TOP + LARGE[1] + 22.0], &text, small);
 }
 
@@ -213,7 +214,7 @@ fn closely(canvas: &mut Canvas, replay: &Replay, scene: &Scene, spot: &Spot, top
         spot.name,
         decimal(&(&spot.half * exact::exact(2.0)), 3)
     );
-    let bold = Type::new(canvas.palette, 14.0, true);
+    let bold = Font::new(canvas.palette, 14.0, true);
     canvas.text([MARGIN, top - 6.0], &title, bold);
     for (i, plane) in [Plane::V, Plane::W].into_iter().enumerate() {
         let corner = [MARGIN + i as f64 * (SPOT + GAP), top + 8.0];
@@ -232,7 +233,7 @@ fn closely(canvas: &mut Canvas, replay: &Replay, scene: &Scene, spot: &Spot, top
     }
     let left = 2.0 * MARGIN + 2.0 * SPOT + GAP;
     let palette = canvas.palette;
-    let small = Type::new(canvas.palette, 14.0, false);
+    let small = Font::new(canvas.palette, 14.0, false);
     let mut y = top + 24.0;
     canvas.cross([left + 8.0, y - 5.0], 5.0, Pen::new(palette.wrong, 2.2));
     canvas.text([left + 24.0, y], "plain arithmetic's points", small);
@@ -241,18 +242,14 @@ fn closely(canvas: &mut Canvas, replay: &Replay, scene: &Scene, spot: &Spot, top
     canvas.text([left + 24.0, y], "exact arithmetic's points", small);
     y += 24.0;
     canvas.disc([left + 8.0, y - 5.0], 1.6, palette.classes[0]);
-    canvas.text(
-        [left + 24.0, y],
-        "numbers there are (where they are few)",
-        small,
-    );
+    canvas.text([left + 24.0, y], "representable points (where few)", small);
     words(canvas, [left, y + 34.0], &summary(replay));
 }
 
 fn words(canvas: &mut Canvas, [x, y]: Place, lines: &[String]) {
-    let type_ = Type::new(canvas.palette, 14.0, false);
+    let font = Font::new(canvas.palette, 14.0, false);
     for (i, line) in lines.iter().enumerate() {
-        canvas.text([x, y + WORDS * i as f64], line, type_);
+        canvas.text([x, y + WORDS * i as f64], line, font);
     }
 }
 

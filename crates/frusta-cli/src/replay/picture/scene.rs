@@ -1,4 +1,4 @@
-//! What is drawn of a case, ready for drawing: the frustum as a solid of moderate size,
+//! A case, ready for drawing: the frustum as a solid of moderate size,
 //! what of the segment is near it, the truth about that, the places of all answers.
 
 use super::exact::{Exact, Point, Rim, Window, between, exact, in_frame, point, rims};
@@ -23,7 +23,7 @@ pub(super) struct Scene {
     pub(super) window: Window,
     /// The frustum there.
     pub(super) solid: Solid,
-    /// What a length of 1 in the window is in the solid.
+    /// The length in the solid of a length of 1 in the window.
     size: f64,
 }
 
@@ -61,18 +61,18 @@ impl Scene {
         self.window.place(p) * self.size
     }
 
-    /// What is near the frustum of the line between two points.
+    /// The parameters of the part of a line that is near the frustum.
     pub(super) fn near(&self, a: &Point, b: &Point) -> Option<[Exact; 2]> {
         self.window.within([a, b], MARGIN, &[0, 1, 2])
     }
 
     /// What of the segment is near the frustum, and the truth about that; `None` if
     /// nothing is.
-    pub(super) fn strand(&self, replay: &Replay) -> Option<Strand> {
+    pub(super) fn near_piece(&self, replay: &Replay) -> Option<NearPiece> {
         let [a, b] = &self.ends;
         let range = self.near(a, b)?;
         let segment = range.each_ref().map(|t| self.place(&between(a, b, t)));
-        Some(Strand {
+        Some(NearPiece {
             segment: Segment::new(segment[0], segment[1]),
             clip: truth_within(replay, &range),
             shown: shown(&range),
@@ -81,7 +81,7 @@ impl Scene {
 }
 
 /// A piece of the segment, to be drawn.
-pub(super) struct Strand {
+pub(super) struct NearPiece {
     pub(super) segment: Segment<f64>,
     /// By the piece's own parameter.
     pub(super) clip: SegmentClip<f64>,
@@ -170,7 +170,7 @@ fn solid(rims: &[Rim; 2], window: &Window, size: f64, shape: &Shape) -> Solid {
 pub(super) fn step_at(p: &Point) -> Exact {
     let near = p.each_ref().map(round_nearest::<f64>);
     let largest = near.iter().fold(0.0_f64, |a, c| a.max(c.abs()));
-    // A frame's coordinates may be beyond the range of doubles.
+    // A frame's coordinates may be beyond the range of `f64`.
     let above = largest.next_up().min(f64::MAX);
     exact(above) - exact(above.next_down())
 }

@@ -1,4 +1,4 @@
-//! Where right and wrong answers part, if that is too small for the whole picture.
+//! Where right and wrong answers differ, if that is too small for the whole picture.
 
 use super::exact::{Exact, Point, distance, exact, in_frame};
 use super::scene::{Scene, points, step_at};
@@ -10,12 +10,12 @@ pub(super) struct Spot {
     pub(super) centre: Point,
     /// Half of the window's size.
     pub(super) half: Exact,
-    /// What it is.
+    /// Its name.
     pub(super) name: &'static str,
 }
 
 /// The spot, where there is one: the exact end that answers are farthest from without
-/// being visibly far; else where a segment that is outside was said to be inside; else
+/// being visibly far; else where an answer puts a segment inside that is outside; else
 /// a clipped end and its neighbours.
 pub(super) fn find(replay: &Replay, scene: &Scene) -> Option<Spot> {
     let visible = size(scene) / exact(50.0);
@@ -49,7 +49,7 @@ pub(super) fn find(replay: &Replay, scene: &Scene) -> Option<Spot> {
     })
 }
 
-/// Where a segment that is outside was said to be inside.
+/// Where an answer puts a segment inside that is outside.
 fn claimed(scene: &Scene, all: &[[Point; 2]]) -> Option<Spot> {
     let [first, _] = all.first()?;
     let (near, far) = (&scene.rims[0], &scene.rims[1]);
@@ -71,7 +71,7 @@ fn claimed(scene: &Scene, all: &[[Point; 2]]) -> Option<Spot> {
     (off < size(scene)).then(|| Spot {
         centre: first.clone(),
         half: (off * exact(1.6)).max(step_at(first) * exact(4.0)),
-        name: "where it was said to be inside",
+        name: "where an answer is inside",
     })
 }
 

@@ -4,7 +4,7 @@
 use super::exact::{Exact, Point, Rim, Window, between};
 use super::scene::{Scene, points, shown, truth_within};
 use super::spot::Spot;
-use crate::draw::{Canvas, Pen, Place, Plane, Sizes, draw_strand};
+use crate::draw::{Canvas, Pen, Place, Plane, Sizes, draw_segment};
 use crate::replay::answers::Replay;
 use frusta::Real;
 use frusta::oracle::round_nearest;
@@ -20,7 +20,7 @@ pub(super) struct Zoom<'a> {
     pub(super) scene: &'a Scene,
     pub(super) spot: &'a Spot,
     pub(super) plane: Plane,
-    /// Of the square picture.
+    /// The side of the square picture.
     pub(super) side: f64,
 }
 
@@ -55,7 +55,7 @@ impl Zoom<'_> {
         self.to_picture([at[2], at[self.across()]])
     }
 
-    /// What is inside, and the sides that bound it.
+    /// The region inside, and the sides that bound it.
     fn region(&self, canvas: &mut Canvas) {
         let mut region = vec![[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
         let sides = self.sides();
@@ -121,7 +121,7 @@ impl Zoom<'_> {
             thin: 1.7,
             mark: 4.5,
         };
-        draw_strand(canvas, &clip, shown(&range), sizes, at);
+        draw_segment(canvas, &clip, shown(&range), sizes, at);
     }
 
     /// Plain answers as crosses, exact ones as discs.
@@ -192,7 +192,7 @@ fn representable<T: Real>(centre: &Exact, window: &Window, k: usize) -> Option<V
 struct Side([f64; 3]);
 
 impl Side {
-    /// Of the value in the middle and the slopes by depth and across.
+    /// From the value in the middle and the slopes along depth and across.
     fn new(terms: [Exact; 3]) -> Self {
         let largest = terms.iter().map(Signed::abs).max();
         let largest = largest.filter(|l| !l.is_zero());

@@ -13,7 +13,7 @@ use super::axes::{Decades, label};
 use super::marks::mark;
 use super::style;
 use super::words::{figure, percent};
-use crate::picture::escaped;
+use crate::draw::escaped;
 use frusta_lab::{SurveyAlgorithm, SurveyRow, SurveyTier};
 use std::fmt::Write;
 
