@@ -6,16 +6,15 @@
 //! Answers are compared first.
 
 mod slices;
-mod turns;
 
 use frusta::{
     Accuracy, CohenSutherland, CyrusBeck, Frustum, LiangBarsky, LiangBarskyVariant, Pose, Real,
     Segment, SegmentClipper, SixPlanes, VwProjection,
 };
 use frusta_lab::mixes::{COUNT, Form, Mix, assert_answers_agree, call, form_cases, frustum};
+use frusta_lab::turns::{Pass, Timing, take_turns};
 use std::hint::black_box;
 use std::time::Instant;
-use turns::{Pass, take_turns};
 
 /// Times one pass over the segments, in nanoseconds each.
 fn pass<T: Real>(clipper: impl SegmentClipper<T>, frustum: &Frustum, all: &[Segment<T>]) -> f64 {
@@ -58,9 +57,13 @@ fn heading(names: &[&str]) {
     println!();
 }
 
-fn row(turns: &[(f64, f64)]) {
-    for (time, ratio) in turns {
-        print!(" {time:6.1} ({ratio:5.2})");
+fn row(turns: &[Timing]) {
+    for timing in turns {
+        print!(
+            " {:6.1} ({:5.2})",
+            timing.nanoseconds,
+            timing.ratio.inverse().median
+        );
     }
     println!();
 }
@@ -110,9 +113,10 @@ fn forms(rounds: usize) {
             Box::new(|| pass(VwProjection::plain(), &case.own, all)),
         ];
         let turns = take_turns(&mut passes, rounds);
-        let [(a, _), (b, ratio)] = [turns[0], turns[1]];
+        let [general, own] = [turns[0].nanoseconds, turns[1].nanoseconds];
+        let speed = turns[1].ratio.inverse().median;
         let (form, mix) = (case.form.name(), case.mix.name());
-        println!("{form:14} {mix:14} {a:6.1} {b:6.1} ({ratio:5.2})");
+        println!("{form:14} {mix:14} {general:6.1} {own:6.1} ({speed:5.2})");
     }
 }
 

@@ -6,10 +6,9 @@ use inputs::Source;
 pub use inputs::{boxes, quads};
 
 use crate::boxes::{
-    Batch, BevyLoop, Collision, GridBox, OursBatch, OursBox, OursPoint, PackedSpatialIndex,
-    REFERENCE_BOX, REFERENCE_BOXES, TreeCuller, Truth,
+    Batch, BevyLoop, Collision, GridBox, Listed, OursBatch, OursBox, OursPoint, PackedSpatialIndex,
+    REFERENCE_BOX, REFERENCE_BOXES, REFERENCE_SLICE, TreeCuller, Truth,
 };
-use frusta_lab::mixes::{self, Mix};
 use crate::peer::{Case, Contestant, Timed, enter};
 use crate::quads::{PlaneSplit, Quad};
 use crate::scene::{Block, Camera};
@@ -18,8 +17,9 @@ use crate::segments::{
     REFERENCE_SLICES, Slice, Transformed, contenders, cube_matrix,
 };
 use crate::tally::{Judge, SegmentJudge, Tally, count};
-use crate::turns::{REFERENCES, Time, take_turns};
 use frusta::{Frustum, Segment};
+use frusta_lab::mixes::{self, Mix};
+use frusta_lab::turns::{Spread, Turns};
 
 /// Contestants for one kind of case.
 pub type Field<C> = Vec<Box<dyn Contestant<C>>>;
@@ -77,6 +77,18 @@ pub enum Place {
     Window(Block),
     /// A perspective frustum.
     Frustum(Camera),
+}
+
+/// How many there are that times are compared with.
+pub const REFERENCES: usize = 5;
+
+/// The times of one contestant.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Time {
+    /// Nanoseconds a case, the median over rounds.
+    pub nanoseconds: f64,
+    /// As multiples of each reference's time in the same round.
+    pub ratios: [Option<Spread>; REFERENCES],
 }
 
 /// What one contestant did in one contest.
@@ -213,14 +225,15 @@ fn load<C: Case + 'static>(mut field: Field<C>, cases: &[C]) -> Vec<Box<dyn Time
     field.into_iter().map(|c| c as Box<dyn Timed>).collect()
 }
 
-/// Where the references are: exact-class V/W in `f64` and in `f32`, then both over slices. Where
-/// boxes are classified, frusta's `f32` alone and in batches stand in the places of `f64`.
+/// The references' indices: exact-class V/W in `f64` and in `f32`, then both over slices. For
+/// boxes: `Culler::classify`, the list of a set, and the list of a plain slice, all in `f32`.
 fn references(all: &[Box<dyn Timed>]) -> [Option<usize>; REFERENCES] {
     [
         [(REFERENCE, "f64"), (REFERENCE_BOX, "f32")],
         [(REFERENCE, "f32"), (REFERENCE, "f32")],
         [(REFERENCE_SLICES, "f64"), (REFERENCE_BOXES, "f32")],
         [(REFERENCE_SLICES, "f32"), (REFERENCE_SLICES, "f32")],
+        [(REFERENCE_SLICE, "f32"), (REFERENCE_SLICE, "f32")],
     ]
     .map(|references| {
         all.iter().position(|c| {
@@ -237,11 +250,19 @@ fn outcomes(
     step: &(dyn Fn(u64) + Sync),
 ) -> Vec<Outcome> {
     let references = references(&all);
-    let times = take_turns(&mut all, references, effort.rounds, || step(0));
-    let who = all.iter().map(|c| c.who());
+    let mut turns = Turns::new(all.len());
+    turns.take(effort.rounds, |i| all[i].time(), || step(0));
+    let time = |i: usize| Time {
+        nanoseconds: turns.nanoseconds(i),
+        ratios: references.map(|reference| Some(turns.ratios(i, reference?))),
+    };
+    let who = all.iter().map(|c| c.who()).enumerate();
     who.zip(tallies)
-        .zip(times)
-        .map(|((who, tally), time)| Outcome { who, tally, time })
+        .map(|((i, who), tally)| Outcome {
+            who,
+            tally,
+            time: time(i),
+        })
         .collect()
 }
 
@@ -308,8 +329,11 @@ impl Boxes {
             field.push(enter(OursPoint::new(frustum)));
             return field;
         }
-        field.push(enter(OursBox::new(frustum, false)));
-        field.push(enter(OursBox::new(frustum, true)));
+        field.extend(lists(camera));
+        for exact in [false, true] {
+            field.push(enter(OursBox::new(frustum, exact)));
+            field.push(enter(Listed::new(OursBox::new(frustum, exact))));
+        }
         for batch in [
             Batch::Masks,
             Batch::List,
@@ -334,6 +358,18 @@ impl Boxes {
     fn counted(&self, effort: &Effort) -> usize {
         effort.cases(self.input != "half-lattice")
     }
+}
+
+/// The other libraries' tests of boxes in a loop that lists what is visible.
+fn lists(camera: &Camera) -> Field<GridBox> {
+    let mut field: Field<GridBox> = vec![
+        enter(Listed::new(PackedSpatialIndex::new(camera))),
+        enter(Listed::new(TreeCuller::new(camera, false))),
+        enter(Listed::new(TreeCuller::new(camera, true))),
+        enter(Listed::new(BevyLoop::new(camera))),
+    ];
+    field.extend(Collision::new(camera).map(|peer| enter(Listed::new(peer))));
+    field
 }
 
 impl Contest for Boxes {

@@ -5,7 +5,6 @@
 //! - [`scene`]: the frusta and the matrices that describe them to the others
 //! - [`segments`], [`quads`], [`boxes`]: the jobs, a file a library
 //! - [`tally`]: wrong answers, counted
-//! - [`turns`]: times, taken in turns
 //! - [`contest`]: which jobs on which inputs
 //! - [`facts`]: single inputs that end badly, each in a process of its own
 //! - [`file`](mod@file), [`table`], [`versions`], [`machine`]: what comes out
@@ -23,6 +22,4 @@ pub mod scene;
 pub mod segments;
 pub mod table;
 pub mod tally;
-pub mod turns;
 pub mod versions;
-

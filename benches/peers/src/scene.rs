@@ -1,7 +1,7 @@
 //! The frusta, and the matrices and boxes that describe them to the others.
 
-use frusta_lab::mixes::{self, Form};
 use frusta::{EndRect, Frustum, Pose, Rect, Shape, Vec3};
+use frusta_lab::mixes::{self, Form};
 
 /// A symmetric perspective camera.
 #[derive(Clone, Copy, Debug)]

@@ -3,6 +3,7 @@
 
 use frusta::samples::Random;
 use frusta::{Real, Segment, Vec3};
+use frusta_lab::turns::Spread;
 use frusta_peers::boxes::GridBox;
 use frusta_peers::contest::{Contest, Effort, Field, Quads, Segments, all, cullings, segments};
 use frusta_peers::facts;
@@ -165,7 +166,7 @@ fn exact_tiers_are_right_and_the_reference_is_first() {
     for contest in all().iter().filter(|c| c.job().starts_with("segment")) {
         let outcomes = contest.run(&effort, &|_| ());
         assert_eq!(outcomes[0].who.function, REFERENCE);
-        assert_eq!(outcomes[0].time.ratios[0], Some([1.0; 3]));
+        assert_eq!(outcomes[0].time.ratios[0], Some(Spread::new(vec![1.0])));
         let exact = outcomes.iter().filter(|o| o.who.function.contains("exact"));
         for outcome in exact {
             let tally = outcome.tally.expect("judged");

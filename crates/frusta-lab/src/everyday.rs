@@ -16,7 +16,7 @@
 
 use super::paper::Tier;
 use super::paper_answers::Topology;
-use super::turns::{Timing, Turns, geometric_mean};
+use super::turns::{Spread, Timing, Turns};
 use frusta::clip::{
     Accuracy, LiangBarsky, LiangBarskyVariant, SegmentClip, SegmentClipper, VwProjection,
 };
@@ -90,15 +90,11 @@ impl Everyday {
 
     /// How many times as fast as textbook Liang-Barsky in plain arithmetic, one segment
     /// a call, a clipper is: the geometric mean over mixes and places.
-    pub fn speed(&self, algorithm: &str, tier: Tier, slices: bool) -> Option<f64> {
+    pub fn speed(&self, algorithm: &str, tier: Tier, slices: bool) -> Option<Spread> {
         let is_it =
             |row: &&EverydayRow| (row.algorithm, row.tier, row.slices) == (algorithm, tier, slices);
-        geometric_mean(
-            self.rows
-                .iter()
-                .filter(is_it)
-                .filter_map(EverydayRow::speed),
-        )
+        let rows = self.rows.iter().filter(is_it);
+        Spread::geometric_mean(rows.filter_map(EverydayRow::speed))
     }
 
     /// Whether there were so few segments that branch predictors learnt them, which
@@ -110,8 +106,8 @@ impl Everyday {
 
 impl EverydayRow {
     /// How many times as fast as textbook Liang-Barsky; `None` if nothing was timed.
-    pub fn speed(&self) -> Option<f64> {
-        (self.timing.ratio > 0.0).then(|| 1.0 / self.timing.ratio)
+    pub fn speed(&self) -> Option<Spread> {
+        self.timing.speed()
     }
 }
 
@@ -119,11 +115,11 @@ impl EverydayRow {
 /// after each of [`everyday_rounds`].
 ///
 /// ```
-/// use frusta::report::{Tier, everyday, everyday_rounds};
+/// use frusta_lab::{Tier, everyday, everyday_rounds};
 /// let mut rounds = 0;
 /// let found = everyday(2_000, 1, || rounds += 1);
 /// assert!(found.exact_is_right() && found.flatters_branches());
-/// assert!(found.speed("vw", Tier::Exact, true) > Some(0.0));
+/// assert!(found.speed("vw", Tier::Exact, true).unwrap().median > 0.0);
 /// assert_eq!(rounds, everyday_rounds(1));
 /// ```
 pub fn everyday(segments: usize, rounds: u32, mut on_round: impl FnMut()) -> Everyday {
@@ -157,9 +153,9 @@ pub fn everyday(segments: usize, rounds: u32, mut on_round: impl FnMut()) -> Eve
     }
 }
 
-/// How many rounds [`everyday`] goes through, of so many on each mix.
+/// How many rounds [`everyday`] goes through, warm-up included, if this many count on each mix.
 pub fn everyday_rounds(rounds: u32) -> u64 {
-    (Mix::poses().len() * Mix::ALL.len()) as u64 * u64::from(rounds)
+    (Mix::poses().len() * Mix::ALL.len() * Turns::rounds(rounds as usize)) as u64
 }
 
 /// A clipper, and how it is called.
@@ -260,13 +256,11 @@ impl<'a> Place<'a> {
     }
 
     fn times(&self, entrants: &[Entrant], rounds: u32, on_round: &mut dyn FnMut()) -> Vec<Timing> {
-        let mut turns = Turns::new(entrants.len(), 0);
+        let mut turns = Turns::new(entrants.len());
         let mut clips = Vec::with_capacity(Everyday::SLICE);
-        for _ in 0..rounds {
-            turns.round(|i| self.pass(&entrants[i], &mut clips));
-            on_round();
-        }
-        turns.medians()
+        let time = |i: usize| self.pass(&entrants[i], &mut clips);
+        turns.take(rounds as usize, time, on_round);
+        turns.timings(0)
     }
 
     /// Nanoseconds a segment, of one pass.
@@ -401,13 +395,14 @@ mod tests {
         let mut found = everyday(10, 0, || ());
         for (i, row) in found.rows.iter_mut().enumerate() {
             let is_it = row.algorithm == "vw" && row.tier == Tier::Exact && row.slices;
-            row.timing.ratio = match (is_it, i % 2) {
+            row.timing.ratio = Spread::new(vec![match (is_it, i % 2) {
                 (true, 0) => 0.25,
                 (true, _) => 1.0,
                 _ => 3.0,
-            };
+            }]);
         }
-        assert_eq!(found.speed("vw", Tier::Exact, true), Some(2.0));
+        let speed = found.speed("vw", Tier::Exact, true).map(|s| s.median);
+        assert_eq!(speed, Some(2.0));
         assert!(found.flatters_branches());
         found.segments = FEW;
         assert!(!found.flatters_branches());

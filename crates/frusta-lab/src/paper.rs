@@ -148,9 +148,9 @@ impl PaperTable {
 ///
 /// ```
 /// let mut rounds = 0;
-/// let table = frusta::report::paper_table(20, || rounds += 1);
+/// let table = frusta_lab::paper_table(20, || rounds += 1);
 /// assert!(table.exact_is_right());
-/// assert_eq!(rounds, frusta::report::paper_rounds(20));
+/// assert_eq!(rounds, frusta_lab::paper_rounds(20));
 /// ```
 pub fn paper_table(repeats: u32, mut on_round: impl FnMut()) -> PaperTable {
     let mut rows = rows::<f64>("f64", repeats, &mut on_round);

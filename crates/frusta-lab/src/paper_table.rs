@@ -1,5 +1,6 @@
 //! The paper's table as text, in lines of at most 100 columns.
 
+use super::figures::{fit, ratio};
 use super::paper::{PaperRow, PaperTable};
 use super::paper_answers::{PaperFailure, Score};
 use std::fmt;
@@ -49,20 +50,20 @@ error     the largest of all answers of the right class: in roundoffs of the seg
 
 fn heading(f: &mut fmt::Formatter<'_>, row: &PaperRow) -> fmt::Result {
     let right = format!("right of {}", row.standard.samples);
-    writeln!(
-        f,
-        "\n{:21} {:^27} {right:>11} {:^28} {:>9}",
-        "", "run time", "wrong", "error"
-    )?;
     let [stretched, turned, rotated] =
         [&row.stretched, &row.turned, &row.rotated].map(|s| format!("of {}", s.samples));
-    writeln!(f, "{:59}{stretched:>10}{turned:>9}{rotated:>10}", "")?;
     writeln!(
         f,
-        "{:21} {:>5} {:>6} {:>8} {:>5} {:>5} {:>4}{:>10}{:>9}{:>10} {:>5} {:>4}",
+        "\n{:21} {:^32} {right:>11} {:^26}",
+        "", "run time", "wrong"
+    )?;
+    writeln!(f, "{:66}{stretched:>9}{turned:>9}{rotated:>9}", "")?;
+    writeln!(
+        f,
+        "{:21} {:>5} {:>9} {:>9} {:>6} {:>5} {:>5}{:>9}{:>9}{:>9} {:>5} {:>4}",
         "",
         "paper",
-        "order",
+        "in order",
         "shuffled",
         "ns",
         "class",
@@ -79,12 +80,11 @@ fn line(f: &mut fmt::Formatter<'_>, row: &PaperRow) -> fmt::Result {
     let paper = row.paper.map_or("-".into(), |r| format!("{r:.3}"));
     let wrong = |s: &Score| format!("{}/{}", s.wrong()[0], s.wrong()[1]);
     let [error, ulps] = row.max_error().map(|e| fit(e, 2, 4));
-    let ratios = [row.in_order, row.shuffled].map(|timing| fit(timing.ratio, 3, 6));
-    let [order, shuffled] = ratios;
-    let nanoseconds = fit(row.shuffled.nanoseconds, 1, 5);
+    let [order, shuffled] = [row.in_order, row.shuffled].map(|timing| ratio(timing.ratio));
+    let nanoseconds = fit(row.shuffled.nanoseconds, 1, 6);
     writeln!(
         f,
-        "{:<21} {paper:>5} {order:>6} {shuffled:>8} {nanoseconds:>5} {:>5} {:>4}{:>10}{:>9}{:>10} {error:>5} {ulps:>4}",
+        "{:<21} {paper:>5} {order:>9} {shuffled:>9} {nanoseconds:>6} {:>5} {:>5}{:>9}{:>9}{:>9} {error:>5} {ulps:>4}",
         row.algorithm,
         row.standard.right_classes,
         row.standard.right_sets,
@@ -97,14 +97,6 @@ fn line(f: &mut fmt::Formatter<'_>, row: &PaperRow) -> fmt::Result {
     } else {
         writeln!(f, "{:21} answers differed between passes", "")
     }
-}
-
-/// A number in so many columns, with as many of the decimals as fit.
-pub(super) fn fit(value: f64, decimals: usize, columns: usize) -> String {
-    let decimals = (0..=decimals).rev();
-    let texts = decimals.map(|digits| format!("{value:.digits$}"));
-    let fitting = texts.into_iter().find(|text| text.len() <= columns);
-    fitting.unwrap_or_else(|| format!("{value:.0e}"))
 }
 
 /// Which samples were answered wrongly, and how the first time.
@@ -142,25 +134,4 @@ fn failures(f: &mut fmt::Formatter<'_>, row: &PaperRow) -> fmt::Result {
         writeln!(f, "      and on {} more samples", samples - told)?;
     }
     Ok(())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn numbers_keep_to_their_columns() {
-        for (value, text) in [
-            (0.0, "0.00"),
-            (9.994, "9.99"),
-            (9.996, "10.0"),
-            (128.0, "128"),
-            (9999.4, "9999"),
-            (123_456.0, "1e5"),
-        ] {
-            assert_eq!(fit(value, 2, 4), text);
-        }
-        assert_eq!(fit(10_515.5, 1, 5), "10516");
-        assert_eq!(fit(158.858, 3, 6), "158.86");
-    }
 }

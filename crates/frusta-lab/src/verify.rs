@@ -226,7 +226,7 @@ impl fmt::Display for Witness {
 /// Runs families through a clipper; `on_row` sees each row when it is done.
 ///
 /// ```
-/// use frusta::report::{ExactClipper, Options, verify};
+/// use frusta_lab::{ExactClipper, Options, verify};
 /// use frusta::samples::Family;
 /// let options = Options { families: vec![Family::Bumps], cases: 64, ..Options::default() };
 /// let rows = verify(&ExactClipper, &options, |row| assert!(row.is_clean()));

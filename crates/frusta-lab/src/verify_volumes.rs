@@ -45,6 +45,12 @@ impl VolumeKind {
         ["box", "box-f32", "obb", "sphere", "sphere-f32"][self as usize]
     }
 
+    /// The kinds that a family has: those in `f32` only where it has `f32`.
+    pub fn of_family(family: Family) -> impl Iterator<Item = VolumeKind> + Clone {
+        let has = move |kind: &VolumeKind| family.has_f32() || !kind.is_single();
+        Self::ALL.into_iter().filter(has)
+    }
+
     const fn is_single(self) -> bool {
         matches!(self, VolumeKind::BoxF32 | VolumeKind::SphereF32)
     }
@@ -160,7 +166,7 @@ impl fmt::Display for VolumeTally {
 /// Verifies this many volumes of each kind in a family.
 ///
 /// ```
-/// use frusta::report::{VolumeKind, verify_volumes};
+/// use frusta_lab::{VolumeKind, verify_volumes};
 /// use frusta::samples::Family;
 /// let rows = verify_volumes(Family::OffAxis, 200, 1, 1, &|_| {});
 /// assert_eq!(rows.len(), VolumeKind::ALL.len());
@@ -173,10 +179,7 @@ pub fn verify_volumes(
     threads: usize,
     on_cases: &(dyn Fn(u64) + Sync),
 ) -> Vec<VolumeRow> {
-    let kinds = VolumeKind::ALL;
-    let kinds = kinds
-        .into_iter()
-        .filter(|kind| family.has_f32() || !kind.is_single());
+    let kinds = VolumeKind::of_family(family);
     let next = AtomicU64::new(0);
     let all = kinds.clone().map(|kind| VolumeRow {
         family,

@@ -16,6 +16,7 @@
 
 use super::turns::{Timing, Turns};
 use super::verify_volumes::{VolumeKind, VolumeTally, verify_volumes};
+use super::work::{OnWork, Work};
 use frusta::clip::{SegmentArrays, SegmentIntervals};
 use frusta::cull::{Aabb, Containment, Culler, Obb, Sphere};
 use frusta::cull::{BoxArrays, BoxSet, ContainmentMasks};
@@ -61,18 +62,18 @@ pub struct VolumePlan {
 }
 
 impl VolumePlan {
-    /// How much of `on_step` there will be.
-    pub fn steps(&self) -> u64 {
-        let tried = self.families.len() as u64 * VolumeKind::ALL.len() as u64 * self.cases;
-        let timed = u64::from(self.rounds) * TIMED_STEP;
-        tried + VIEWS.len() as u64 * (self.boxes / BOXES_STEP) + timed
+    /// How much work this is.
+    pub fn work(&self) -> [(Work, u64); 3] {
+        let kinds = |&family: &Family| VolumeKind::of_family(family).count() as u64;
+        let tried = self.families.iter().map(kinds).sum::<u64>() * self.cases;
+        let rounds = JOBS.len() * Turns::rounds(self.rounds as usize);
+        [
+            (Work::Volumes, tried),
+            (Work::Boxes, VIEWS.len() as u64 * self.boxes),
+            (Work::VolumeRounds, rounds as u64),
+        ]
     }
 }
-
-/// Boxes that weigh as much as one that is tried.
-const BOXES_STEP: u64 = 16;
-/// What a round of times weighs.
-const TIMED_STEP: u64 = 400;
 
 /// Half extents up to this part of the depth, and fields of view in radians.
 const VIEWS: [(f64, f64); 6] = [
@@ -130,7 +131,7 @@ impl VolumeSurvey {
 /// Tries, counts and times.
 ///
 /// ```
-/// use frusta::report::{VolumePlan, volumes};
+/// use frusta_lab::{VolumePlan, volumes};
 /// use frusta::samples::Family;
 /// let plan = VolumePlan {
 ///     families: vec![Family::Random],
@@ -141,27 +142,28 @@ impl VolumeSurvey {
 ///     timed: 5_000,
 ///     rounds: 1,
 /// };
-/// let found = volumes(&plan, &|_| {});
+/// let found = volumes(&plan, &|_, _| {});
 /// assert!(found.is_right());
 /// // Of large boxes before a narrow view a quarter and more are accepted falsely.
 /// assert!(found.accepts.last().unwrap().share() > 0.2);
 /// ```
-pub fn volumes(plan: &VolumePlan, on_step: &(dyn Fn(u64) + Sync)) -> VolumeSurvey {
+pub fn volumes(plan: &VolumePlan, on_work: OnWork<'_>) -> VolumeSurvey {
+    let on_cases = |cases| on_work(Work::Volumes, cases);
     let mut errors = VolumeKind::ALL.map(|kind| (kind, VolumeTally::default()));
     for &family in &plan.families {
-        for row in verify_volumes(family, plan.cases, plan.seed, plan.threads, on_step) {
+        for row in verify_volumes(family, plan.cases, plan.seed, plan.threads, &on_cases) {
             errors[row.kind as usize].1 += row.tally;
         }
     }
     let accepts = VIEWS.iter().filter_map(|&(size, view)| {
         let found = false_accepts(size, view, plan);
-        on_step(plan.boxes / BOXES_STEP);
+        on_work(Work::Boxes, plan.boxes);
         found
     });
     VolumeSurvey {
         errors: errors.to_vec(),
         accepts: accepts.collect(),
-        times: times(plan, on_step),
+        times: times(plan, on_work),
         timed: plan.timed,
         rounds: plan.rounds,
     }
@@ -313,6 +315,9 @@ struct Buffers {
     intervals: SegmentIntervals<f32>,
 }
 
+/// The jobs, in the order of tables.
+const JOBS: [&str; 4] = ["box", "oriented box", "sphere", "segment"];
+
 /// A job, what a function is called, and how all are asked about.
 type Timed = (&'static str, &'static str, fn(&Scene, &mut Buffers));
 
@@ -395,44 +400,29 @@ const TIMED: [Timed; 13] = [
     }),
 ];
 
-fn times(plan: &VolumePlan, on_step: &dyn Fn(u64)) -> Vec<VolumeTime> {
+fn times(plan: &VolumePlan, on_work: OnWork<'_>) -> Vec<VolumeTime> {
     let Some(scene) = Scene::new(plan) else {
         return Vec::new();
     };
     let mut to = Buffers::default();
-    let mut jobs: Vec<Turns> = Vec::new();
-    let of = |job: &str| {
-        TIMED
-            .iter()
-            .filter(|timed| timed.0 == job)
-            .collect::<Vec<_>>()
-    };
-    let names = ["box", "oriented box", "sphere", "segment"];
-    let fields: Vec<Vec<&Timed>> = names.iter().map(|name| of(name)).collect();
-    fields
-        .iter()
-        .for_each(|field| jobs.push(Turns::new(field.len(), 0)));
-    for _ in 0..plan.rounds {
-        for (field, turns) in fields.iter().zip(&mut jobs) {
-            turns.round(|i| {
-                let start = Instant::now();
-                (field[i].2)(&scene, &mut to);
-                black_box((&to.masks, &to.list, &to.intervals));
-                start.elapsed().as_nanos() as f64 / plan.timed.max(1) as f64
-            });
-        }
-        on_step(TIMED_STEP);
+    let mut rows = Vec::new();
+    for job in JOBS {
+        let field: Vec<&Timed> = TIMED.iter().filter(|timed| timed.0 == job).collect();
+        let mut turns = Turns::new(field.len());
+        let time = |i: usize| {
+            let start = Instant::now();
+            (field[i].2)(&scene, &mut to);
+            black_box((&to.masks, &to.list, &to.intervals));
+            start.elapsed().as_nanos() as f64 / plan.timed.max(1) as f64
+        };
+        let on_round = || on_work(Work::VolumeRounds, 1);
+        turns.take(plan.rounds as usize, time, on_round);
+        let timings = turns.timings(0).into_iter();
+        rows.extend(field.iter().zip(timings).map(|(timed, timing)| VolumeTime {
+            job,
+            function: timed.1,
+            timing,
+        }));
     }
-    let rows = fields.into_iter().zip(jobs).flat_map(|(field, turns)| {
-        let medians = turns.medians().into_iter();
-        field
-            .into_iter()
-            .zip(medians)
-            .map(|(timed, timing)| VolumeTime {
-                job: timed.0,
-                function: timed.1,
-                timing,
-            })
-    });
-    rows.collect()
+    rows
 }

@@ -1,6 +1,6 @@
 //! Volumes as text, in lines of at most 100 columns.
 
-use super::paper_table::fit;
+use super::figures::{self, fit};
 use super::volumes::VolumeSurvey;
 use std::fmt;
 
@@ -46,10 +46,7 @@ impl fmt::Display for VolumeSurvey {
             "", "ns", "times as fast", self.timed, self.rounds
         )?;
         for row in &self.times {
-            let speed = match row.timing.ratio {
-                ratio if ratio > 0.0 => fit(1.0 / ratio, 2, 8),
-                _ => "-".to_owned(),
-            };
+            let speed = figures::ratio(row.timing.speed().unwrap_or_default());
             let name = format!("{}: {}", row.job, row.function);
             let time = fit(row.timing.nanoseconds, 2, 8);
             writeln!(f, "{name:<34} {time:>8} {speed:>14}")?;
@@ -81,7 +78,7 @@ mod tests {
             timed: 300,
             rounds: 1,
         };
-        let found = volumes(&plan, &|_| {});
+        let found = volumes(&plan, &|_, _| {});
         assert!(found.is_right());
         assert!(found.errors.iter().all(|(_, tally)| tally.cases > 0));
         let text = found.to_string();
@@ -101,7 +98,10 @@ mod tests {
         assert!(shares[3] > shares[0] && shares[5] > shares[2], "{shares:?}");
         plan.rounds = 0;
         assert_eq!(
-            volumes(&plan, &|_| {}).to_string().matches(" -\n").count(),
+            volumes(&plan, &|_, _| {})
+                .to_string()
+                .matches(" -\n")
+                .count(),
             13
         );
     }

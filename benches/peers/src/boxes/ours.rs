@@ -1,6 +1,6 @@
 //! frusta on points and boxes: one a call, and in batches.
 
-use super::GridBox;
+use super::{BoxTest, GridBox};
 use crate::peer::{Contestant, Peer, Timed, Who};
 use frusta::cull::{BoxArrays, BoxSet, ContainmentMasks};
 use frusta::{Aabb, Containment, Culler, Frustum, NonFinite, Vec3, VolumeError};
@@ -44,10 +44,12 @@ impl Peer for OursPoint {
     }
 }
 
-/// What boxes' times are compared with: one a call, and in batches.
+/// What times of one call a box are compared with.
 pub const REFERENCE_BOX: &str = "Culler::classify";
-/// In batches.
+/// What times of lists are compared with: the list of boxes that are kept.
 pub const REFERENCE_BOXES: &str = "Culler::visible_boxes, a set";
+/// What times of lists are compared with, too: the list of a plain slice of boxes.
+pub const REFERENCE_SLICE: &str = "Culler::visible_boxes, slice";
 
 /// `Culler::classify`, plane by plane, or `Culler::classify_exact`.
 pub struct OursBox {
@@ -102,6 +104,20 @@ impl Peer for OursBox {
     }
 }
 
+impl BoxTest for OursBox {
+    fn list_name(&self) -> &'static str {
+        match self.exact {
+            true => "Culler::classify_exact, list",
+            false => "Culler::classify, list",
+        }
+    }
+
+    #[inline]
+    fn sees(&mut self, block: &Aabb<f32>) -> bool {
+        self.run(block) != Ok(Containment::Outside)
+    }
+}
+
 /// Which batch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Batch {
@@ -129,7 +145,7 @@ pub struct OursBatch {
 }
 
 /// Boxes in a call.
-const PIECE: usize = 4096;
+pub(super) const PIECE: usize = 4096;
 
 impl OursBatch {
     /// The frustum itself.
@@ -187,7 +203,7 @@ impl Timed for OursBatch {
                 Batch::MasksOfSet => "Culler::mask_boxes, a set",
                 Batch::ListOfSet => REFERENCE_BOXES,
                 Batch::List => "Culler::visible_boxes, arrays",
-                Batch::ListOfBoxes => "Culler::visible_boxes, slice",
+                Batch::ListOfBoxes => REFERENCE_SLICE,
             },
             scalar: "f32",
             note: "4,096 a call; outside and inside exact, conservative by design",

@@ -1,9 +1,9 @@
 //! What everybody is asked about, from a seed.
 
-use frusta_lab::mixes::{COUNT, Mix};
 use crate::quads::Quad;
 use frusta::samples::Random;
 use frusta::{Pose, Real, Segment, Vec3};
+use frusta_lab::mixes::{COUNT, Mix};
 
 /// Where segments come from.
 #[derive(Clone, Copy, Debug)]

@@ -9,7 +9,7 @@ use frusta::math::{NonFinite, Segment};
 /// An algorithm in a tier, made ready for a frustum.
 ///
 /// ```
-/// use frusta::report::{SurveyAlgorithm, SurveyClipper, SurveyTier};
+/// use frusta_lab::{SurveyAlgorithm, SurveyClipper, SurveyTier};
 /// use frusta::samples::Family;
 /// let (frustum, segment) = Family::Shear.case(1, 0);
 /// let clipper = SurveyClipper::new(SurveyAlgorithm::Vw, SurveyTier::PlainF64, &frustum);

@@ -1,6 +1,7 @@
 //! What a survey says: a row for each algorithm, tier and family, and the inputs
 //! that were worst.
 
+use crate::turns::Spread;
 use frusta::samples::Family;
 use std::fmt;
 use std::str::FromStr;
@@ -167,9 +168,8 @@ pub struct SurveyRow {
     pub refused: u64,
     /// Nanoseconds a segment: the median over rounds.
     pub ns_median: f64,
-    /// The time divided by the reference's in the same round: the median over
-    /// rounds. Larger is slower.
-    pub time_ratio: f64,
+    /// The time divided by the reference's in the same round. Larger is slower.
+    pub time_ratio: Spread,
     /// Errors in units in the last place of the exact coordinate, fractional.
     pub error_ulp: SurveyError,
     /// Errors in unit roundoffs times the segment's largest coordinate, after the

@@ -78,12 +78,10 @@ pub(super) fn measure(
 ) -> Vec<Timing> {
     let cases = Cases::new(family, options);
     let reference = entrants.iter().position(|e| e.is_reference()).unwrap_or(0);
-    let mut turns = Turns::new(entrants.len(), reference);
-    for _ in 0..options.rounds {
-        turns.round(|i| cases.pass(entrants[i]));
-        on_round();
-    }
-    turns.medians()
+    let mut turns = Turns::new(entrants.len());
+    let time = |i: usize| cases.pass(entrants[i]);
+    turns.take(options.rounds as usize, time, on_round);
+    turns.timings(reference)
 }
 
 #[inline(never)]
