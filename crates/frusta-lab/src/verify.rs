@@ -86,7 +86,7 @@ pub struct Options {
     /// How many threads; 0 counts as 1.
     pub threads: usize,
     /// Whether to verify `f32` as well, where a family has it.
-    pub singles: bool,
+    pub with_f32: bool,
 }
 
 impl Default for Options {
@@ -97,7 +97,7 @@ impl Default for Options {
             cases: 1_000,
             seed: 1,
             threads: 1,
-            singles: true,
+            with_f32: true,
         }
     }
 }
@@ -105,7 +105,7 @@ impl Default for Options {
 impl Options {
     /// How many cases these are, in all families and scalar types.
     pub fn total(&self) -> u64 {
-        let types = |f: &Family| 1 + u64::from(self.singles && f.has_f32());
+        let types = |f: &Family| 1 + u64::from(self.with_f32 && f.has_f32());
         self.cases * self.families.iter().map(types).sum::<u64>()
     }
 }
@@ -255,7 +255,7 @@ pub fn verify_watched(
             rows.push(row);
         };
         add(verify_family::<f64>(subject, options, family, on_cases));
-        if options.singles && family.has_f32() {
+        if options.with_f32 && family.has_f32() {
             add(verify_family::<f32>(subject, options, family, on_cases));
         }
     }
