@@ -1,17 +1,17 @@
-//! Everyday segments: what the clippers take where next to nothing is singular.
+//! Everyday segments: the clippers' run times where hardly anything is singular.
 //!
 //! # What is measured
 //! On each [`Mix`], in the view's frame and in the world of a turned camera, in `f64`:
 //! Liang-Barsky, textbook and tuned, and V/W in plain arithmetic, exact V/W with
 //! [`Accuracy::Fast`]; one segment a call, and all but the first over slices, into a
 //! buffer that is used again. All are called through `dyn SegmentClipper` and take
-//! [turns](super::turns). Of [`FEW`] segments and more, clipped over and over, no
-//! branch predictor learns the order; fewer flatter clippers that branch.
+//! [turns](super::turns). Branch predictors do not learn the order of [`FEW`] segments or more,
+//! clipped over and over; fewer flatter clippers that branch.
 //!
 //! # Answers
 //! All are compared before anything is timed. Those of the exact tier must be those
 //! of another exact algorithm, one segment a call, to the bit, and the first of each
-//! mix must hold against rational arithmetic; plain ones must have the same class,
+//! mix must agree with rational arithmetic; plain ones must have the same class,
 //! sets and clipped flags.
 
 use super::paper::Tier;
@@ -27,22 +27,22 @@ use frusta::samples::Mix;
 use std::hint::black_box;
 use std::time::Instant;
 
-/// Branch predictors learn fewer segments than these.
+/// Branch predictors learn the order of fewer segments.
 const FEW: usize = 65_536;
 
-/// So many of the exact answers to each mix are held against the oracle, which takes
+/// How many of the exact answers to each mix are compared with the oracle, which takes
 /// a thousand times as long as clipping.
 const JUDGED: usize = 256;
 
-/// What was found on everyday segments.
+/// The findings on everyday segments.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Everyday {
     /// How many segments there were of each mix.
     pub segments: usize,
-    /// In how many rounds, in which the clippers took turns.
+    /// The number of timed rounds.
     pub rounds: u32,
-    /// Place by place and mix by mix, a row a clipper and way of calling it, in the same
-    /// order everywhere: first the one that all are compared with.
+    /// Place by place and mix by mix, a row for each clipper and way of calling it, always in the
+    /// same order; the first is the reference.
     pub rows: Vec<EverydayRow>,
 }
 
@@ -51,7 +51,7 @@ pub struct Everyday {
 pub struct EverydayRow {
     /// The segments.
     pub mix: Mix,
-    /// Where, as [`Mix::poses`] names it.
+    /// The pose's name: [`Mix::poses`].
     pub place: &'static str,
     /// The clipper's name.
     pub algorithm: &'static str,
@@ -62,13 +62,13 @@ pub struct EverydayRow {
     /// The time; the ratio is to textbook Liang-Barsky in plain arithmetic, one
     /// segment a call.
     pub timing: Timing,
-    /// How many answers are wrong. Of the exact tier, one that is not the same to the
-    /// bit as another algorithm's is.
+    /// The number of wrong answers. In the exact tier, an answer that differs from another
+    /// algorithm's in any bit is wrong.
     pub wrong: usize,
 }
 
 impl Everyday {
-    /// Segments clipped with one call, over slices.
+    /// Segments in one call, over slices.
     pub const SLICE: usize = 1024;
 
     /// Whether every answer of the exact tier is right.
@@ -111,8 +111,8 @@ impl EverydayRow {
     }
 }
 
-/// Compares and times the clippers on so many segments of each mix; `on_round` hears
-/// after each of [`everyday_rounds`].
+/// Compares and times the clippers on this many segments of each mix; `on_round` is called after
+/// each of [`everyday_rounds`].
 ///
 /// ```
 /// use frusta_lab::{Tier, everyday, everyday_rounds};
@@ -174,7 +174,7 @@ impl Entrant {
         }
     }
 
-    /// Who takes part; the first is what all are compared with.
+    /// All clippers; the first is the reference.
     fn all() -> Vec<Self> {
         use LiangBarskyVariant::{Textbook, Tuned};
         let textbook = Self::new(Tier::Plain, false, LiangBarsky::plain(Textbook));
@@ -191,11 +191,11 @@ impl Entrant {
             .collect()
     }
 
-    /// One clip a segment of a slice, in the way that it is called; none for a refusal.
+    /// One clip for each segment of a slice, in this way of calling; refused segments have none.
     #[inline(never)]
     fn clip(&self, frustum: &Frustum, slice: &[Segment<f64>], clips: &mut Vec<SegmentClip<f64>>) {
         if self.slices {
-            // It leaves none if it refuses.
+            // A refusal leaves no clips.
             let _ = self.clipper.clip_segments(frustum, slice, clips);
         } else {
             clips.clear();
@@ -205,7 +205,7 @@ impl Entrant {
     }
 }
 
-/// Segments, their frustum, and the exact answers of who is not timed.
+/// Segments, their frustum, and the answers of an exact clipper that is not timed.
 struct Place<'a> {
     frustum: &'a Frustum,
     segments: Vec<Segment<f64>>,
@@ -232,15 +232,15 @@ impl<'a> Place<'a> {
             .segments
             .chunks(Everyday::SLICE)
             .zip(self.answers.chunks(Everyday::SLICE));
-        for (number, (slice, answers)) in slices.enumerate() {
+        for (index, (slice, answers)) in slices.enumerate() {
             entrant.clip(self.frustum, slice, &mut clips);
             wrong += slice.len() - clips.len();
             for (i, (clip, answer)) in clips.iter().zip(answers).enumerate() {
-                let judged = number * Everyday::SLICE + i < JUDGED;
+                let judged = index * Everyday::SLICE + i < JUDGED;
                 let right = match entrant.tier {
                     Tier::Plain => Topology::of_answer(clip) == Topology::of_answer(answer),
                     Tier::Exact => {
-                        is_same(clip, answer) && (!judged || self.holds(&slice[i], clip))
+                        is_same(clip, answer) && (!judged || self.is_true(&slice[i], clip))
                     }
                 };
                 wrong += usize::from(!right);
@@ -249,8 +249,8 @@ impl<'a> Place<'a> {
         wrong
     }
 
-    /// Against rational arithmetic.
-    fn holds(&self, segment: &Segment<f64>, clip: &SegmentClip<f64>) -> bool {
+    /// Whether rational arithmetic confirms the answer.
+    fn is_true(&self, segment: &Segment<f64>, clip: &SegmentClip<f64>) -> bool {
         let violations = check(self.frustum, segment, Accuracy::Fast, clip);
         violations.is_ok_and(|violations| violations.is_empty())
     }
@@ -356,7 +356,7 @@ mod tests {
     }
 
     #[test]
-    fn the_oracle_judges_whom_the_others_agree_with() {
+    fn the_oracle_judges_answers_that_all_agree_on() {
         let [(_, pose), _] = Mix::poses();
         let frustum = Frustum::new(pose, Mix::shape()).unwrap();
         let mut place = Place::new(&frustum, Mix::MostlyIn.segments(JUDGED + 200, &pose));

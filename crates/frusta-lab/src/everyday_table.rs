@@ -8,11 +8,10 @@ use std::fmt;
 
 const LEGEND: &str = "
 L-B ns      nanoseconds a segment of textbook Liang-Barsky, plain, one segment a call
-all others  how many times as fast as that; tuned: Liang-Barsky
+all others  how many times as fast as that, with the spread over the rounds; tuned: Liang-Barsky
 ";
 
-const FEW: &str =
-    "So few segments are learnt by branch predictors: their times flatter branches.\n";
+const FEW: &str = "Branch predictors learn so few segments: the times flatter branches.\n";
 
 impl fmt::Display for Everyday {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

@@ -1,5 +1,19 @@
-//! What measures [`frusta`]: the paper's table, error against run time, verification, and the
-//! scenes and checks that tests, benchmarks and fuzz targets share.
+//! Measures [`frusta`]: error against run time, the paper's table, verification; and holds the
+//! scenes and checks that tests, benchmarks and fuzz targets share. The command `frusta` prints
+//! what this crate measures.
+//!
+//! ```text
+//! survey/    every algorithm in every arithmetic on families of hard cases: errors and run times
+//! everyday   run times on segments as programs have them
+//! volumes    boxes, spheres and batches: errors, false accepts, run times
+//! paper      the paper's table on its 78 singular samples: paper_answers, paper_timing
+//! verify     every family through the exact clipper; verify_volumes: through the culler
+//! *_table    the same as text; paper_summary: the paper's table in short; figures: numbers
+//! turns      how all run times are taken; work: how much of a measurement is done
+//! case_line  a frustum and a segment as one line of text, to the bit
+//! check      all guarantees of one segment's answers at once
+//! mixes      frusta and everyday segments of the benchmarks
+//! ```
 
 mod case_line;
 pub mod check;

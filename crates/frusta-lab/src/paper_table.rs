@@ -5,11 +5,11 @@ use super::paper::{PaperRow, PaperTable};
 use super::paper_answers::{PaperFailure, Score};
 use std::fmt;
 
-/// How many failing samples are told of a clipper other than [`TOLD_IN_FULL`].
+/// How many failing samples are listed for a clipper other than [`LISTED_IN_FULL`].
 const FIRST: usize = 3;
 
 /// The clipper that the paper says errs.
-const TOLD_IN_FULL: &str = "six-planes";
+const LISTED_IN_FULL: &str = "six-planes";
 
 impl fmt::Display for PaperTable {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -115,12 +115,12 @@ fn failures(f: &mut fmt::Formatter<'_>, row: &PaperRow) -> fmt::Result {
          and the first",
         row.algorithm
     )?;
-    let told = if row.algorithm == TOLD_IN_FULL {
+    let listed = if row.algorithm == LISTED_IN_FULL {
         samples
     } else {
         FIRST.min(samples)
     };
-    for failure in &row.failures[..told] {
+    for failure in &row.failures[..listed] {
         let PaperFailure {
             sample,
             count,
@@ -128,11 +128,11 @@ fn failures(f: &mut fmt::Formatter<'_>, row: &PaperRow) -> fmt::Result {
             truth,
             ..
         } = failure;
-        writeln!(f, "{count:>5} {sample:<33} said {said}")?;
+        writeln!(f, "{count:>5} {sample:<33} gave {said}")?;
         writeln!(f, "{:39} true {truth}", "")?;
     }
-    if told < samples {
-        writeln!(f, "      and on {} more samples", samples - told)?;
+    if listed < samples {
+        writeln!(f, "      and on {} more samples", samples - listed)?;
     }
     Ok(())
 }

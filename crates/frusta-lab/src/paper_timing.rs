@@ -2,8 +2,8 @@
 //!
 //! The repeats are split into rounds, in which the clippers take [turns](super::turns).
 //! All clippers are called the same way, through `dyn SegmentClipper`: whether the
-//! compiler would inline one into this loop says nothing about it. Of every
-//! answer something is summed, and the sums must be what they were before.
+//! compiler would inline one into this loop says nothing about it. A digest of every
+//! answer is summed, and the sums must not change from pass to pass.
 //!
 //! The paper's procedure, the same samples in the same order over and over, lets
 //! a processor's branch predictor learn them by heart, which flatters branches.
@@ -22,19 +22,19 @@ use std::time::Instant;
 /// short against the drift.
 const PASSES: u32 = 100;
 
-/// What was measured of one clipper.
+/// The measurements of one clipper.
 pub(super) struct Measured {
     pub(super) in_order: Timing,
     pub(super) shuffled: Timing,
     pub(super) steady: bool,
 }
 
-/// How many rounds so many repeats make.
+/// The number of rounds for this many repeats.
 pub(super) fn rounds(repeats: u32) -> u32 {
     repeats.div_ceil(PASSES)
 }
 
-/// Measures clippers; ratios are to the one of number `reference`.
+/// Measures clippers; ratios are to the one with the index `reference`.
 pub(super) fn measure<T: Real>(
     clippers: &[Clipper<T>],
     reference: usize,
@@ -113,7 +113,7 @@ fn pass<T: Real>(
     (time / count, sum)
 }
 
-/// A little of an answer.
+/// A digest of an answer.
 #[inline(always)]
 fn digest<T: Real>(clip: &SegmentClip<T>) -> u64 {
     let faces = clip

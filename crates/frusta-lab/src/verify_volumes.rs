@@ -1,10 +1,10 @@
-//! Every family's hard volumes through the culler, held against the oracle.
+//! Every family's hard volumes through the culler, compared with the oracle.
 //!
-//! Boxes in `f64` and `f32`, oriented boxes and balls, at least half of them within 4 ulp of
-//! touching the frustum. Each is classified alone and, boxes and balls, in a batch: both must
-//! be what integers say, plane by plane; and the exact answer what separating axes and distances
-//! in integers say. Blocks that share a frustum are dealt to the threads; counts do not depend
-//! on how many there are.
+//! Boxes in `f64` and `f32`, oriented boxes and spheres, at least half of them within 4 ulp of
+//! touching the frustum. Each is classified alone, boxes and spheres also in a batch: both must
+//! agree with integer arithmetic, plane by plane; the exact answer must agree with separating axes
+//! and distances in integers. Blocks that share a frustum are dealt to the threads; counts do not
+//! depend on the number of threads.
 
 use frusta::cull::{Aabb, Containment, Culler, Sphere, Volume, VolumeCounts};
 use frusta::math::Real;
@@ -15,7 +15,7 @@ use std::ops::AddAssign;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// Which volumes.
+/// A kind of volume.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum VolumeKind {
     /// Axis-aligned boxes in `f64`.
@@ -24,14 +24,14 @@ pub enum VolumeKind {
     BoxF32,
     /// Oriented boxes in `f64`.
     Obb,
-    /// Balls in `f64`.
+    /// Spheres in `f64`.
     Sphere,
-    /// Balls in `f32`.
+    /// Spheres in `f32`.
     SphereF32,
 }
 
 impl VolumeKind {
-    /// All of them.
+    /// All kinds.
     pub const ALL: [VolumeKind; 5] = [
         VolumeKind::Box,
         VolumeKind::BoxF32,
@@ -40,7 +40,7 @@ impl VolumeKind {
         VolumeKind::SphereF32,
     ];
 
-    /// As it is printed.
+    /// The name in tables.
     pub const fn name(self) -> &'static str {
         ["box", "box-f32", "obb", "sphere", "sphere-f32"][self as usize]
     }
@@ -56,22 +56,22 @@ impl VolumeKind {
     }
 }
 
-/// What was found of one kind, in one family or in all.
+/// The findings on one kind, in one family or in all.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct VolumeTally {
     /// How many volumes were tried.
     pub cases: u64,
-    /// Of these, how many are outside, crossing and inside, plane by plane.
+    /// How many of these are outside, crossing and inside, plane by plane.
     pub classes: [u64; 3],
-    /// Classified otherwise than integers do, alone.
+    /// Classes, of one volume alone, that differ from integer arithmetic's.
     pub wrong: u64,
-    /// Of these, called outside.
+    /// Those among them that are wrongly outside.
     pub wrongly_outside: u64,
-    /// Classified otherwise in a batch.
+    /// Classes in a batch that differ from integer arithmetic's.
     pub wrong_in_batch: u64,
-    /// Volumes of which the exact answer is wrong.
+    /// Wrong answers of the exact test.
     pub wrong_exact: u64,
-    /// What the answers needed.
+    /// The stages that the answers needed.
     pub counts: VolumeCounts,
 }
 
@@ -163,7 +163,8 @@ impl fmt::Display for VolumeTally {
     }
 }
 
-/// Verifies this many volumes of each kind in a family.
+/// Verifies this many volumes of each kind in a family; `on_cases` is called, from every thread,
+/// with the number of volumes that were done since its last call.
 ///
 /// ```
 /// use frusta_lab::{VolumeKind, verify_volumes};
@@ -213,7 +214,7 @@ pub fn verify_volumes(
     rows.into_inner().unwrap_or_else(|e| e.into_inner())
 }
 
-/// A scene, and who answers.
+/// A scene, its culler and its oracle.
 struct Bench<'a> {
     scene: &'a Scene,
     seed: u64,
@@ -243,35 +244,35 @@ impl<'a> Bench<'a> {
                 }
                 tally
             }
-            VolumeKind::Sphere => self.balls(numbers.map(|n| hard_sphere::<f64>(scene, seed, n))),
+            VolumeKind::Sphere => self.spheres(numbers.map(|n| hard_sphere::<f64>(scene, seed, n))),
             VolumeKind::SphereF32 => {
-                self.balls(numbers.map(|n| hard_sphere::<f32>(scene, seed, n)))
+                self.spheres(numbers.map(|n| hard_sphere::<f32>(scene, seed, n)))
             }
         }
     }
 
-    /// The truth, plane by plane, with which the answer for one volume is compared.
+    /// Compares the answer for one volume with the truth, plane by plane, and returns the truth.
     fn alone(&self, volume: Volume, tally: &mut VolumeTally) -> Containment {
         let truth = self.oracle.classify(&volume);
-        let said = self.culler.classify_counted(volume, &mut tally.counts);
+        let found = self.culler.classify_counted(volume, &mut tally.counts);
         tally.cases += 1;
         tally.classes[truth as usize] += 1;
-        tally.wrong += u64::from(said != Ok(truth));
-        let is_outside = said == Ok(Containment::Outside);
+        tally.wrong += u64::from(found != Ok(truth));
+        let is_outside = found == Ok(Containment::Outside);
         tally.wrongly_outside += u64::from(is_outside && truth != Containment::Outside);
         self.exactly(volume, truth, tally);
         truth
     }
 
-    /// The exact test, of what lies so plane by plane.
+    /// Compares the exact test's answer, given the class by planes.
     fn exactly(&self, volume: Volume, by_planes: Containment, tally: &mut VolumeTally) {
         let truth = match by_planes {
             Containment::Crossing if !self.oracle.intersects(&volume) => Containment::Outside,
             class => class,
         };
         let mut counts = VolumeCounts::default();
-        let said = self.culler.classify_exact_counted(volume, &mut counts);
-        tally.wrong_exact += u64::from(said != Ok(truth));
+        let found = self.culler.classify_exact_counted(volume, &mut counts);
+        tally.wrong_exact += u64::from(found != Ok(truth));
         tally.counts.asked += counts.asked;
         tally.counts.false_accepts += counts.false_accepts;
     }
@@ -288,11 +289,11 @@ impl<'a> Bench<'a> {
         tally
     }
 
-    fn balls<T: Real>(&self, balls: impl Iterator<Item = Sphere<T>>) -> VolumeTally {
+    fn spheres<T: Real>(&self, spheres: impl Iterator<Item = Sphere<T>>) -> VolumeTally {
         let mut tally = VolumeTally::default();
-        let (balls, mut classes) = (balls.collect::<Vec<_>>(), Vec::new());
-        let batch = self.culler.classify_spheres(&balls, &mut classes);
-        for (i, &volume) in balls.iter().enumerate() {
+        let (spheres, mut classes) = (spheres.collect::<Vec<_>>(), Vec::new());
+        let batch = self.culler.classify_spheres(&spheres, &mut classes);
+        for (i, &volume) in spheres.iter().enumerate() {
             let truth = self.alone(volume.into(), &mut tally);
             let in_batch = classes.get(i).filter(|_| batch.is_ok());
             tally.wrong_in_batch += u64::from(in_batch != Some(&truth));

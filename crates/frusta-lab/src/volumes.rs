@@ -1,17 +1,17 @@
-//! Boxes, balls and batches: errors, false accepts, run times.
+//! Boxes, spheres and batches: errors, false accepts, run times.
 //!
 //! # Errors
-//! Hard volumes of every family, in the culler's answers and in batches, against integers:
+//! Hard volumes of every family, classified alone and in batches, compared with integer arithmetic:
 //! [`verify_volumes`].
 //!
 //! # False accepts
-//! A test face by face says too often that a box crosses: one beyond an edge is outside of no
-//! face. Boxes of up to a size, in and about a turned camera's frustum; how many of those that the
-//! faces let pass the exact test takes out. Shares depend on where boxes are put: here
-//! evenly where a box of that size can touch the frustum's bounding box.
+//! A test face by face accepts too many boxes: no single face rejects one beyond an edge. Counted
+//! are boxes of up to a size, in and about a turned camera's frustum, that the faces accept and the
+//! exact test rejects. The share depends on the placement: here evenly where a box of that size can
+//! touch the frustum's bounding box.
 //!
 //! # Times
-//! The same everyday boxes, balls and segments, one a call and in batches of
+//! The same everyday boxes, spheres and segments, one a call and in batches of
 //! [`VolumeSurvey::PIECE`], in [turns](super::turns).
 
 use super::turns::{Timing, Turns};
@@ -27,18 +27,18 @@ use frusta::samples::{Family, Mix, Random};
 use std::hint::black_box;
 use std::time::Instant;
 
-/// What was found on volumes.
+/// The findings on volumes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct VolumeSurvey {
     /// Sums over families, a row a kind.
     pub errors: Vec<(VolumeKind, VolumeTally)>,
     /// By size and field of view.
     pub accepts: Vec<FalseAccepts>,
-    /// Run times, a row a function; each job's first is what the others are compared with.
+    /// Run times, a row for each function; ratios are to the first function of a job.
     pub times: Vec<VolumeTime>,
     /// How many of each kind were timed.
     pub timed: usize,
-    /// In how many rounds.
+    /// How many rounds were timed.
     pub rounds: u32,
 }
 
@@ -49,9 +49,9 @@ pub struct VolumePlan {
     pub families: Vec<Family>,
     /// Volumes of each kind and family.
     pub cases: u64,
-    /// Which ones.
+    /// The seed of all volumes.
     pub seed: u64,
-    /// Threads that try them.
+    /// Threads that verify them.
     pub threads: usize,
     /// Boxes of each size and field of view.
     pub boxes: u64,
@@ -62,7 +62,7 @@ pub struct VolumePlan {
 }
 
 impl VolumePlan {
-    /// How much work this is.
+    /// How much of each kind of work this is.
     pub fn work(&self) -> [(Work, u64); 3] {
         let kinds = |&family: &Family| VolumeKind::of_family(family).count() as u64;
         let tried = self.families.iter().map(kinds).sum::<u64>() * self.cases;
@@ -85,7 +85,7 @@ const VIEWS: [(f64, f64); 6] = [
     (0.5, 0.1),
 ];
 
-/// What the exact test takes out of what faces let pass.
+/// Boxes that the faces accept and the exact test rejects.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FalseAccepts {
     /// Half extents are up to this part of the far distance.
@@ -96,12 +96,12 @@ pub struct FalseAccepts {
     pub boxes: u64,
     /// How many no face rejects.
     pub accepted: u64,
-    /// How many of these are apart from the frustum.
+    /// How many of these are outside of the frustum.
     pub falsely: u64,
 }
 
 impl FalseAccepts {
-    /// Of what is accepted.
+    /// The share of the accepted boxes that are falsely accepted.
     pub fn share(&self) -> f64 {
         self.falsely as f64 / self.accepted.max(1) as f64
     }
@@ -110,16 +110,16 @@ impl FalseAccepts {
 /// A function's time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct VolumeTime {
-    /// What is asked: `box`, `sphere` or `segment`, all in `f32`.
+    /// What is classified or clipped: `box`, `oriented box`, `sphere` or `segment`, in `f32`.
     pub job: &'static str,
-    /// By what function, of what layout.
+    /// The function, and the layout of its input.
     pub function: &'static str,
     /// The time for one; the ratio is to the job's first function.
     pub timing: Timing,
 }
 
 impl VolumeSurvey {
-    /// How many are asked about with one call, in batches.
+    /// The number of volumes in one call of a batch.
     pub const PIECE: usize = 4096;
 
     /// Whether every answer is right.
@@ -128,7 +128,8 @@ impl VolumeSurvey {
     }
 }
 
-/// Tries, counts and times.
+/// Verifies hard volumes, counts false accepts and takes times; `on_work` is called with all of
+/// [`VolumePlan::work`], part by part.
 ///
 /// ```
 /// use frusta_lab::{VolumePlan, volumes};
@@ -144,7 +145,7 @@ impl VolumeSurvey {
 /// };
 /// let found = volumes(&plan, &|_, _| {});
 /// assert!(found.is_right());
-/// // Of large boxes before a narrow view a quarter and more are accepted falsely.
+/// // With a narrow view, more than a fifth of the accepted large boxes are outside.
 /// assert!(found.accepts.last().unwrap().share() > 0.2);
 /// ```
 pub fn volumes(plan: &VolumePlan, on_work: OnWork<'_>) -> VolumeSurvey {
@@ -169,10 +170,10 @@ pub fn volumes(plan: &VolumePlan, on_work: OnWork<'_>) -> VolumeSurvey {
     }
 }
 
-/// As far as is seen in these views.
+/// The far distance of these views.
 const FAR: f64 = 100.0;
 
-/// A square view from 1 to 100, along none of the axes, which boxes lie along: as cameras do.
+/// A square view from 1 to 100, oblique to the axes of the boxes.
 fn view(field_of_view: f64) -> Option<Frustum> {
     let camera = Camera {
         eye: Vec3::default(),
@@ -188,7 +189,7 @@ fn view(field_of_view: f64) -> Option<Frustum> {
     camera.frustum().ok()
 }
 
-/// A box of up to a half extent, evenly where one can touch the frustum's bounds.
+/// A box with half extents up to `most`, evenly where one can touch the frustum's bounds.
 fn any_box(random: &mut Random, [low, high]: [Vec3<f64>; 2], most: f64) -> Aabb<f64> {
     let mut pick = |k: usize| random.between(low[k] - most, high[k] + most);
     let middle = Vec3::new(pick(0), pick(1), pick(2));
@@ -197,7 +198,7 @@ fn any_box(random: &mut Random, [low, high]: [Vec3<f64>; 2], most: f64) -> Aabb<
     Aabb::new(middle - half, middle + half)
 }
 
-/// The corners of what bounds a frustum.
+/// The corners of the frustum's bounding box.
 fn bounds(frustum: &Frustum) -> Option<[Vec3<f64>; 2]> {
     let corners = frustum.corners();
     let FarCorners::Points(far) = corners.far else {
@@ -217,8 +218,8 @@ fn false_accepts(size: f64, field_of_view: f64, plan: &VolumePlan) -> Option<Fal
         let volume = any_box(&mut random, bounds, size * FAR);
         if culler.classify(volume) != Ok(Containment::Outside) {
             accepted += 1;
-            let is_apart = culler.classify_exact(volume) == Ok(Containment::Outside);
-            falsely += u64::from(is_apart);
+            let is_outside = culler.classify_exact(volume) == Ok(Containment::Outside);
+            falsely += u64::from(is_outside);
         }
     }
     Some(FalseAccepts {
@@ -230,7 +231,7 @@ fn false_accepts(size: f64, field_of_view: f64, plan: &VolumePlan) -> Option<Fal
     })
 }
 
-/// What is timed, by structures and by arrays.
+/// The timed input, in structures and in arrays.
 struct Scene {
     culler: Culler,
     boxes: Vec<Aabb<f32>>,
@@ -253,7 +254,7 @@ fn columns<V, const K: usize>(all: &[V], of: impl Fn(&V) -> [f32; K]) -> [Vec<f3
     columns
 }
 
-fn numbers(a: Vec3<f32>, b: Vec3<f32>) -> [f32; 6] {
+fn coordinates(a: Vec3<f32>, b: Vec3<f32>) -> [f32; 6] {
     [a.x, a.y, a.z, b.x, b.y, b.z]
 }
 
@@ -263,16 +264,16 @@ impl Scene {
         let mut random = Random::new(&[plan.seed, 3]);
         let bounds = bounds(&frustum)?;
         let most = 0.02 * (bounds[1].z - bounds[0].z);
-        let mut single = || {
+        let mut small_box = || {
             let volume = any_box(&mut random, bounds, most);
             Aabb::new(
                 Vec3::<f32>::from_f64(volume.min),
                 Vec3::<f32>::from_f64(volume.max),
             )
         };
-        let boxes: Vec<Aabb<f32>> = (0..plan.timed).map(|_| single()).collect();
-        let ball = |b: &Aabb<f32>| Sphere::new(b.min, b.max.x - b.min.x);
-        let spheres: Vec<Sphere<f32>> = boxes.iter().map(ball).collect();
+        let boxes: Vec<Aabb<f32>> = (0..plan.timed).map(|_| small_box()).collect();
+        let sphere = |b: &Aabb<f32>| Sphere::new(b.min, b.max.x - b.min.x);
+        let spheres: Vec<Sphere<f32>> = boxes.iter().map(sphere).collect();
         // Turned about two axes.
         let turned = |v: Vec3<f32>| {
             let v = Vec3::new(0.8 * v.x - 0.6 * v.y, 0.6 * v.x + 0.8 * v.y, v.z);
@@ -286,13 +287,13 @@ impl Scene {
         let sets = boxes.chunks(VolumeSurvey::PIECE);
         Some(Self {
             culler: Culler::new(&frustum),
-            box_columns: columns(&boxes, |b| numbers(b.min, b.max)),
+            box_columns: columns(&boxes, |b| coordinates(b.min, b.max)),
             sets: sets
                 .map(|some| BoxSet::new(some.iter().copied()))
                 .collect::<Result<_, _>>()
                 .ok()?,
             sphere_columns: columns(&spheres, |s| [s.center.x, s.center.y, s.center.z, s.radius]),
-            segment_columns: columns(&segments, |s| numbers(s.start, s.end)),
+            segment_columns: columns(&segments, |s| coordinates(s.start, s.end)),
             oriented: oriented.collect(),
             boxes,
             spheres,
@@ -307,7 +308,7 @@ impl Scene {
     }
 }
 
-/// Memory that functions write to.
+/// Output buffers.
 #[derive(Default)]
 struct Buffers {
     masks: ContainmentMasks,
@@ -318,10 +319,10 @@ struct Buffers {
 /// The jobs, in the order of tables.
 const JOBS: [&str; 4] = ["box", "oriented box", "sphere", "segment"];
 
-/// A job, what a function is called, and how all are asked about.
+/// A job, a function's name, and one pass of it over all of the input.
 type Timed = (&'static str, &'static str, fn(&Scene, &mut Buffers));
 
-/// Errors are none: the volumes are such.
+/// No call returns an error: all volumes are valid.
 const TIMED: [Timed; 13] = [
     ("box", "classify", |scene, _| {
         for volume in &scene.boxes {
@@ -376,8 +377,8 @@ const TIMED: [Timed; 13] = [
         for range in scene.pieces() {
             let [a, b, c, radius] = scene.sphere_columns.each_ref().map(|v| &v[range.clone()]);
             let center = [a, b, c];
-            let lot = Spheres::from(SphereArrays { center, radius });
-            let _ = scene.culler.mask_spheres(lot, &mut to.masks);
+            let input = Spheres::from(SphereArrays { center, radius });
+            let _ = scene.culler.mask_spheres(input, &mut to.masks);
         }
     }),
     ("segment", "clip_segment", |scene, _| {
@@ -394,8 +395,8 @@ const TIMED: [Timed; 13] = [
         for range in scene.pieces() {
             let [a, b, c, d, e, f] = scene.segment_columns.each_ref().map(|v| &v[range.clone()]);
             let (start, end) = ([a, b, c], [d, e, f]);
-            let lot = SegmentArrays { start, end };
-            let _ = scene.culler.clip_intervals(lot, &mut to.intervals);
+            let input = SegmentArrays { start, end };
+            let _ = scene.culler.clip_intervals(input, &mut to.intervals);
         }
     }),
 ];

@@ -6,7 +6,7 @@ use std::fmt;
 
 impl fmt::Display for VolumeSurvey {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        writeln!(f, "Boxes, balls and batches\n")?;
+        writeln!(f, "Boxes, spheres and batches\n")?;
         writeln!(
             f,
             "{:<12} {:>10} {:>8} {:>8} {:>8} {:>8}   hard cases of all families",
@@ -56,10 +56,10 @@ impl fmt::Display for VolumeSurvey {
 }
 
 const LEGEND: &str = "
-wrong, outside  classes that are wrong; of these, called outside
+wrong, outside  wrong classes; those among them that are wrongly outside
 batch, exact    wrong classes in batches; wrong answers of the exact test
-falsely         apart from the frustum, which the exact test finds
-times as fast   as one a call by the first function
+falsely         boxes that are outside of the frustum; the exact test rejects them
+times as fast   as the job's first function, one volume a call; with the spread over the rounds
 ";
 
 #[cfg(test)]

@@ -1,19 +1,19 @@
 //! Error against run time: every algorithm in every arithmetic tier on every
-//! family, held against the oracle.
+//! family, compared with the oracle.
 //!
 //! For each case and each clipper: its answer is compared with rational arithmetic,
 //! with the answer for the swapped ends, and with what clipping it again gives.
 //! Blocks of cases that share a frustum are dealt to the threads; counts, errors and
-//! witnesses do not depend on how many there are. Then, with the threads at rest,
+//! witnesses do not depend on the number of threads. Then, with the threads at rest,
 //! the clippers of a family take turns at being timed.
 //!
 //! ```text
-//! clipper  one of them, for who wants it alone
+//! clipper  one of them alone
 //! entrant  the clippers, all called the same way
-//! judge    a case: the truth, and what the answers are worth
+//! judge    a case: the truth, and the errors of the answers
 //! tally    a row's counts
 //! timing   a family's times
-//! row      what is told
+//! row      the findings
 //! table    the same as text
 //! ```
 
@@ -51,13 +51,13 @@ pub struct SurveyOptions {
     pub families: Vec<Family>,
     /// How many cases of each, in each scalar type.
     pub cases: u64,
-    /// Which cases.
+    /// The seed of all cases.
     pub seed: u64,
-    /// In how many rounds times are taken; of none, all times are 0.
+    /// In how many rounds times are taken; without rounds, all times are 0.
     pub rounds: u32,
     /// How many cases of a family are clipped in a round by each clipper.
     pub timed: u32,
-    /// How many threads find the errors; 0 counts as 1. Times are taken by one.
+    /// How many threads find the errors; 0 counts as 1. One thread takes the times.
     pub threads: usize,
 }
 

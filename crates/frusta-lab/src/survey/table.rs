@@ -1,8 +1,8 @@
-//! A survey as text, in lines of at most 100 columns: what the algorithms make of
-//! all families in each tier, and what each family does to the most telling ones.
+//! A survey as text, in lines of at most 100 columns: the algorithms over all families in each
+//! tier, and the most telling ones on each family.
 //!
-//! Thousands of rows are for files. Here counts are summed, errors are the largest,
-//! and times are geometric means over the families, so that none outweighs others.
+//! All rows are in files. Here counts are summed, errors are the largest, and times are geometric
+//! means over the families, so that no family outweighs the others.
 
 use super::row::{Survey, SurveyAlgorithm, SurveyRow, SurveyTier};
 use crate::figures::{RATIO_LEGEND, error, fit, ratio};
@@ -42,8 +42,8 @@ const TIERS_LEGEND: &str = "
 class, faces  cases with a wrong class; with the right one and a wrong face set or clipped flag
 refused       refused, panicked, or not finite
 outside       share of cases with a clipped end that is outside of the frustum, exactly (inward:
-              and called inside); swapped: whose answer changes when the ends are swapped;
-              again: whose answer changes when it is clipped again (inward: if called inside)
+              and flagged inside); swapped: whose answer changes when the ends are swapped;
+              again: whose answer changes when it is clipped again (inward: if flagged inside)
 ulp, u*max    the largest error of a clipped end of an answer of the right class: in units in the
               last place of the exact coordinate; in roundoffs of the segment's largest coordinate
 ns, times     a segment, and as a multiple of plain textbook Liang-Barsky in f64 on the same cases;

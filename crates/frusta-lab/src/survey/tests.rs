@@ -1,5 +1,4 @@
-//! A survey finds what is wrong with a clipper, says the same with any number of
-//! threads, and fits its table.
+//! A survey finds a clipper's faults, does not depend on the number of threads, and fits its table.
 
 use super::entrant::AnyClipper;
 use super::*;
