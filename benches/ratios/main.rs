@@ -1,9 +1,7 @@
 //! How fast the clippers are, as ratios to textbook Liang-Barsky.
 //!
-//! `cargo bench --bench ratios [-- ROUNDS] [singles|slices]`. On a machine that others use, too,
-//! times drift within seconds; ratios drift less. So the clippers take turns,
-//! a ratio is taken within each round, and medians over the rounds are printed.
-//! Answers are compared first.
+//! `cargo bench --bench ratios [-- ROUNDS] [segments|slices]`. The clippers take turns
+//! ([`frusta_lab::turns`]); medians over the rounds are printed. Answers are compared first.
 
 mod slices;
 
@@ -25,7 +23,7 @@ fn pass<T: Real>(clipper: impl SegmentClipper<T>, frustum: &Frustum, all: &[Segm
     start.elapsed().as_nanos() as f64 / all.len() as f64
 }
 
-/// The clippers that take turns; the first is what the others are compared with.
+/// The clippers that take turns; the first is the reference.
 fn clippers<'a, T: Real>(f: &'a Frustum, all: &'a [Segment<T>]) -> Vec<(&'static str, Pass<'a>)> {
     use LiangBarskyVariant::{Textbook, Tuned};
     vec![
@@ -120,8 +118,8 @@ fn forms(rounds: usize) {
     }
 }
 
-/// One by one.
-fn singles(rounds: usize) {
+/// One segment a call.
+fn segments(rounds: usize) {
     println!("nanoseconds a segment; in brackets how many times as fast as textbook Liang-Barsky");
     for place in Mix::poses() {
         table::<f64>("f64", Form::Symmetric, place, rounds);
@@ -141,9 +139,9 @@ fn main() {
     let rounds = rounds.unwrap_or(10_usize).max(1);
     let asked = |name: &str| args.iter().any(|arg| arg == name);
     if !asked("slices") {
-        singles(rounds);
+        segments(rounds);
     }
-    if !asked("singles") {
+    if !asked("segments") {
         slices::print(rounds);
     }
 }

@@ -1,9 +1,8 @@
 //! Over slices, as ratios to tuned Liang-Barsky.
 //!
-//! All write one clip a segment into the
-//! same buffer, a thousand segments at a time, as a program would that goes on with
-//! the clips while they are in the cache. The clippers take turns; medians over
-//! rounds. Every answer of a slice is compared with that of the segment alone first.
+//! All write one clip for each segment into the same buffer, a thousand segments at a time, as a
+//! program does that uses the clips while they are in the cache. The clippers take turns; medians
+//! over rounds are printed. First every answer of a slice is compared with that of the segment alone.
 
 use frusta::{
     Accuracy, Frustum, LiangBarsky, LiangBarskyVariant, Real, Segment, SegmentClip, SegmentClipper,

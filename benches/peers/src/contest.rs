@@ -1,4 +1,4 @@
-//! Which jobs on which inputs, and who takes part.
+//! The jobs, their inputs, and who takes part.
 
 mod inputs;
 
@@ -24,14 +24,14 @@ use frusta_lab::turns::{Spread, Turns};
 /// Contestants for one kind of case.
 pub type Field<C> = Vec<Box<dyn Contestant<C>>>;
 
-/// How much is done.
+/// How much is judged and timed.
 #[derive(Clone, Copy, Debug)]
 pub struct Effort {
-    /// What random input is made from.
+    /// The seed of random input.
     pub seed: u64,
-    /// Cases of a lattice or of uniform input that are counted.
+    /// Cases of a lattice or of uniform input that are judged.
     pub lattice: usize,
-    /// Cases of a mix that are counted.
+    /// Cases of a mix that are judged.
     pub mix: usize,
     /// Cases that are timed.
     pub timed: usize,
@@ -54,7 +54,7 @@ impl Effort {
         rounds: 21,
     };
 
-    /// To see that it works: its times flatter branches, which are learnt by heart.
+    /// A trial run: its times flatter branches, since branch predictors learn the few cases.
     pub const QUICK: Self = Self {
         seed: 1,
         lattice: 20_000,
@@ -68,7 +68,7 @@ impl Effort {
     }
 }
 
-/// By what segments are clipped.
+/// What segments are clipped by.
 #[derive(Clone, Copy, Debug)]
 pub enum Place {
     /// A box, an orthographic frustum.
@@ -79,7 +79,7 @@ pub enum Place {
     Frustum(Camera),
 }
 
-/// How many there are that times are compared with.
+/// The number of references that times are compared with.
 pub const REFERENCES: usize = 5;
 
 /// The times of one contestant.
@@ -94,9 +94,9 @@ pub struct Time {
 /// What one contestant did in one contest.
 #[derive(Clone, Debug)]
 pub struct Outcome {
-    /// Who.
+    /// The contestant.
     pub who: crate::peer::Who,
-    /// Its wrong answers; `None` where it was asked for its time only.
+    /// Its wrong answers; `None` if it was only timed.
     pub tally: Option<Tally>,
     /// Its times.
     pub time: Time,
@@ -115,13 +115,13 @@ pub trait Contest {
         false
     }
 
-    /// How many steps of progress [`Contest::run`] reports.
+    /// The number of steps that [`Contest::run`] reports.
     fn steps(&self, effort: &Effort) -> u64;
 
-    /// Everybody's wrong answers; `None` for who is asked for the time only.
+    /// The wrong answers of all; `None` for those that are only timed.
     fn tallies(&self, effort: &Effort, step: &(dyn Fn(u64) + Sync)) -> Vec<Option<Tally>>;
 
-    /// Everybody, loaded with the cases that are timed.
+    /// All contestants, loaded with the cases that are timed.
     fn loaded(&self, effort: &Effort) -> Vec<Box<dyn Timed>>;
 
     /// Counts and times.
@@ -149,8 +149,8 @@ impl Segments {
         }
     }
 
-    /// Who works in `f64`; the reference is the first.
-    pub fn doubles(&self) -> Field<Segment<f64>> {
+    /// The libraries in `f64`; the reference is the first.
+    pub fn in_f64(&self) -> Field<Segment<f64>> {
         let mut field = contenders(&self.frustum());
         let parry = |block, call| enter(ParryBox64::new(block, call));
         match &self.place {
@@ -167,8 +167,8 @@ impl Segments {
         field
     }
 
-    /// Who works in `f32`; the reference is the first, if anybody does.
-    pub fn singles(&self) -> Field<Segment<f32>> {
+    /// The libraries in `f32`; the reference is the first, if there are any.
+    pub fn in_f32(&self) -> Field<Segment<f32>> {
         let mut field = contenders(&self.frustum());
         let parry = |block, call| enter(ParryBox32::new(block, call));
         match &self.place {
@@ -198,13 +198,13 @@ impl Segments {
         effort.cases(self.source.is_mix())
     }
 
-    /// Knows the truth.
+    /// Decides the truth.
     pub fn judge(&self) -> SegmentJudge {
         SegmentJudge::new(&self.frustum())
     }
 }
 
-/// Counts for a field, those asked for times only left out.
+/// Wrong answers of a field; `None` for those that are only timed.
 fn tallies<C: Case, J: Judge<C>>(
     judge: &J,
     cases: &[C],
@@ -287,19 +287,19 @@ impl Contest for Segments {
     fn tallies(&self, effort: &Effort, step: &(dyn Fn(u64) + Sync)) -> Vec<Option<Tally>> {
         let (judge, n) = (self.judge(), self.counted(effort));
         let cases = self.source.segments::<f64>(effort.seed, n);
-        let mut all = tallies(&judge, &cases, || self.doubles(), step);
-        if !self.singles().is_empty() {
+        let mut all = tallies(&judge, &cases, || self.in_f64(), step);
+        if !self.in_f32().is_empty() {
             let cases = self.source.segments::<f32>(effort.seed, n);
-            all.extend(tallies(&judge, &cases, || self.singles(), step));
+            all.extend(tallies(&judge, &cases, || self.in_f32(), step));
         }
         all
     }
 
     fn loaded(&self, effort: &Effort) -> Vec<Box<dyn Timed>> {
-        let doubles = self.source.segments::<f64>(effort.seed, effort.timed);
-        let singles = self.source.segments::<f32>(effort.seed, effort.timed);
-        let mut all = load(self.doubles(), &doubles);
-        all.extend(load(self.singles(), &singles));
+        let in_f64 = self.source.segments::<f64>(effort.seed, effort.timed);
+        let in_f32 = self.source.segments::<f32>(effort.seed, effort.timed);
+        let mut all = load(self.in_f64(), &in_f64);
+        all.extend(load(self.in_f32(), &in_f32));
         all
     }
 }

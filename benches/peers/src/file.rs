@@ -11,11 +11,11 @@ use serde::Serialize;
 /// Everything that a run found.
 #[derive(Clone, Debug, Serialize)]
 pub struct Report {
-    /// Which kind of file this is.
+    /// The schema of this file.
     pub schema: &'static str,
-    /// Where the times are from.
+    /// The machine that the times are from.
     pub machine: Machine,
-    /// What random input was made from.
+    /// The seed of random input.
     pub seed: u64,
     /// Rounds that were timed.
     pub rounds: usize,
@@ -25,24 +25,24 @@ pub struct Report {
     pub facts: Vec<Fact>,
     /// Ratios of means over the mixes.
     pub headlines: Vec<Headline>,
-    /// What is unfair about all of it.
+    /// What is unfair about this comparison.
     pub bias: &'static str,
 }
 
 /// What one contestant did in one contest.
 #[derive(Clone, Debug, Serialize)]
 pub struct Row {
-    /// What had to be done.
+    /// The job.
     pub job: &'static str,
     /// The crate.
     pub library: &'static str,
     /// Its version, from `Cargo.lock`.
     pub version: &'static str,
-    /// What of it was called.
+    /// The function that was called.
     pub function: &'static str,
-    /// In which numbers.
+    /// The scalar type.
     pub scalar: &'static str,
-    /// On what.
+    /// The input.
     pub input: String,
     /// How many answers were judged; null if none.
     pub cases: Option<u64>,
@@ -77,7 +77,7 @@ pub struct Row {
     /// The largest error of an end, in unit roundoffs of the largest coordinate; null where
     /// no end was computed.
     pub max_error_u_scale: Option<f64>,
-    /// What one must know of it.
+    /// What a reader must know about it.
     pub note: &'static str,
 }
 
@@ -167,8 +167,8 @@ impl Row {
         }
     }
 
-    /// Answers of frusta's exact tier that are wrong, which none may be; of its conservative test
-    /// of boxes, those that miss something.
+    /// Broken promises of frusta: wrong answers of the exact tier, and misses of the conservative
+    /// test of boxes.
     pub fn broken_promises(&self) -> u64 {
         let is_exact = self.function.contains("exact") || self.job == "cull-point";
         match (self.library, self.job) {
@@ -179,11 +179,11 @@ impl Row {
     }
 }
 
-/// A job, a function and its library, whose times are told as means.
-type Told = (&'static str, &'static str, &'static str);
+/// A job, a function and its library, whose times are reported as means.
+type Reported = (&'static str, &'static str, &'static str);
 
-/// The first two are what everybody asks first.
-const TOLD: [Told; 19] = {
+/// The first two are the most usual questions.
+const REPORTED: [Reported; 19] = {
     let cull = "cull-box";
     let (boxes, window, frustum) = ("segment-box", "segment-window", "segment-frustum");
     let (clip, bounds) = ("Aabb::clip_segment", "clip_segment, bounding box");
@@ -239,9 +239,9 @@ fn boxes(ours: &str, function: &str) -> Option<&'static str> {
 pub fn headlines(rows: &[Row]) -> Vec<Headline> {
     let is_mix = |row: &&Row| !matches!(&row.input[..], "half-lattice" | "uniform");
     let mut all = Vec::new();
-    for told in TOLD {
-        let is_it = |row: &&Row| (row.job, row.function, row.library) == told;
-        let (job, function, library) = told;
+    for reported in REPORTED {
+        let is_it = |row: &&Row| (row.job, row.function, row.library) == reported;
+        let (job, function, library) = reported;
         for (ours, ratio) in OURS {
             let found = rows.iter().filter(is_it).filter(is_mix);
             let ratios: Vec<f64> = found.filter_map(ratio).collect();

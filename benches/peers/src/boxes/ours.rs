@@ -1,4 +1,4 @@
-//! frusta on points and boxes: one a call, and in batches.
+//! frusta on points and boxes: one call each, and in batches.
 
 use super::{BoxTest, GridBox};
 use crate::peer::{Contestant, Peer, Timed, Who};
@@ -118,7 +118,7 @@ impl BoxTest for OursBox {
     }
 }
 
-/// Which batch.
+/// A batch function and its input.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Batch {
     /// Classes as masks, from a structure of arrays.
@@ -129,7 +129,7 @@ pub enum Batch {
     ListOfBoxes,
     /// Classes as masks, of boxes that are kept.
     MasksOfSet,
-    /// A draw list, of boxes that are kept: as the others keep theirs, in types of their own.
+    /// A draw list, of boxes that are kept.
     ListOfSet,
 }
 
