@@ -10,8 +10,6 @@
 
 mod data;
 mod separating;
-#[path = "../ratios/turns.rs"]
-mod turns;
 
 use data::{BoxColumns, SegmentColumns};
 use frusta::clip::SegmentIntervals;
@@ -21,10 +19,10 @@ use frusta::{
     VwProjection,
 };
 use frusta_lab::mixes::{COUNT, Form, Mix, call, frustum};
+use frusta_lab::turns::{Pass, Spread, geometric_mean, take_turns};
 use separating::SeparatingAxes;
 use std::hint::black_box;
 use std::time::Instant;
-use turns::{Pass, take_turns};
 
 /// Number of segments or volumes a call.
 const PIECE: usize = 4096;
@@ -41,21 +39,17 @@ fn timed<'a>(count: usize, mut work: impl FnMut() + 'a) -> Pass<'a> {
     })
 }
 
-/// Prints times and ratios to the first, and returns the ratios.
+/// Prints times and how many times as fast as the first each is, and returns the latter.
 fn row(name: &str, rounds: usize, all: Vec<(&str, Pass<'_>)>) -> Vec<f64> {
     let (names, mut passes): (Vec<_>, Vec<_>) = all.into_iter().unzip();
     let turns = take_turns(&mut passes, rounds);
     print!("{name:28}");
-    for (name, (time, ratio)) in names.iter().zip(&turns) {
-        print!("  {name} {time:.2} ({ratio:.2})");
+    let speeds: Vec<Spread> = turns.iter().map(|timing| timing.ratio.inverse()).collect();
+    for ((name, timing), speed) in names.iter().zip(&turns).zip(&speeds) {
+        print!("  {name} {:.2} ({:.2})", timing.nanoseconds, speed.median);
     }
     println!();
-    turns.into_iter().map(|(_, ratio)| ratio).collect()
-}
-
-fn geometric_mean(ratios: &[f64]) -> f64 {
-    let sum: f64 = ratios.iter().map(|ratio| ratio.ln()).sum();
-    (sum / ratios.len() as f64).exp()
+    speeds.into_iter().map(|speed| speed.median).collect()
 }
 
 /// Compares all intervals with single clips.
@@ -113,7 +107,8 @@ fn segments_in_cache(rounds: usize) {
             ratios.push(row(&name, rounds, passes)[2]);
         }
     }
-    println!("the batch, geometric mean: {:.2}", geometric_mean(&ratios));
+    let mean = geometric_mean(ratios).unwrap_or_default();
+    println!("the batch, geometric mean: {mean:.2}");
 }
 
 fn segments_out_of_cache(rounds: usize) {

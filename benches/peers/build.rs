@@ -1,4 +1,4 @@
-//! Tells the program which compiler built it.
+//! Records the compiler's version for the program.
 
 use std::process::Command;
 

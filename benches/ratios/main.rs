@@ -1,21 +1,18 @@
 //! How fast the clippers are, as ratios to textbook Liang-Barsky.
 //!
-//! `cargo bench --bench ratios [-- ROUNDS] [singles|slices]`. On a machine that others use, too,
-//! times drift within seconds; ratios drift less. So the clippers take turns,
-//! a ratio is taken within each round, and medians over the rounds are printed.
-//! Answers are compared first.
+//! `cargo bench --bench ratios [-- ROUNDS] [segments|slices]`. The clippers take turns
+//! ([`frusta_lab::turns`]); medians over the rounds are printed. Answers are compared first.
 
 mod slices;
-mod turns;
 
 use frusta::{
     Accuracy, CohenSutherland, CyrusBeck, Frustum, LiangBarsky, LiangBarskyVariant, Pose, Real,
     Segment, SegmentClipper, SixPlanes, VwProjection,
 };
 use frusta_lab::mixes::{COUNT, Form, Mix, assert_answers_agree, call, form_cases, frustum};
+use frusta_lab::turns::{Pass, Timing, take_turns};
 use std::hint::black_box;
 use std::time::Instant;
-use turns::{Pass, take_turns};
 
 /// Times one pass over the segments, in nanoseconds each.
 fn pass<T: Real>(clipper: impl SegmentClipper<T>, frustum: &Frustum, all: &[Segment<T>]) -> f64 {
@@ -26,7 +23,7 @@ fn pass<T: Real>(clipper: impl SegmentClipper<T>, frustum: &Frustum, all: &[Segm
     start.elapsed().as_nanos() as f64 / all.len() as f64
 }
 
-/// The clippers that take turns; the first is what the others are compared with.
+/// The clippers that take turns; the first is the reference.
 fn clippers<'a, T: Real>(f: &'a Frustum, all: &'a [Segment<T>]) -> Vec<(&'static str, Pass<'a>)> {
     use LiangBarskyVariant::{Textbook, Tuned};
     vec![
@@ -58,9 +55,13 @@ fn heading(names: &[&str]) {
     println!();
 }
 
-fn row(turns: &[(f64, f64)]) {
-    for (time, ratio) in turns {
-        print!(" {time:6.1} ({ratio:5.2})");
+fn row(turns: &[Timing]) {
+    for timing in turns {
+        print!(
+            " {:6.1} ({:5.2})",
+            timing.nanoseconds,
+            timing.ratio.inverse().median
+        );
     }
     println!();
 }
@@ -110,14 +111,15 @@ fn forms(rounds: usize) {
             Box::new(|| pass(VwProjection::plain(), &case.own, all)),
         ];
         let turns = take_turns(&mut passes, rounds);
-        let [(a, _), (b, ratio)] = [turns[0], turns[1]];
+        let [general, own] = [turns[0].nanoseconds, turns[1].nanoseconds];
+        let speed = turns[1].ratio.inverse().median;
         let (form, mix) = (case.form.name(), case.mix.name());
-        println!("{form:14} {mix:14} {a:6.1} {b:6.1} ({ratio:5.2})");
+        println!("{form:14} {mix:14} {general:6.1} {own:6.1} ({speed:5.2})");
     }
 }
 
-/// One by one.
-fn singles(rounds: usize) {
+/// One segment a call.
+fn segments(rounds: usize) {
     println!("nanoseconds a segment; in brackets how many times as fast as textbook Liang-Barsky");
     for place in Mix::poses() {
         table::<f64>("f64", Form::Symmetric, place, rounds);
@@ -137,9 +139,9 @@ fn main() {
     let rounds = rounds.unwrap_or(10_usize).max(1);
     let asked = |name: &str| args.iter().any(|arg| arg == name);
     if !asked("slices") {
-        singles(rounds);
+        segments(rounds);
     }
-    if !asked("singles") {
+    if !asked("segments") {
         slices::print(rounds);
     }
 }

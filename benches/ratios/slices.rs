@@ -1,16 +1,15 @@
 //! Over slices, as ratios to tuned Liang-Barsky.
 //!
-//! All write one clip a segment into the
-//! same buffer, a thousand segments at a time, as a program would that goes on with
-//! the clips while they are in the cache. The clippers take turns; medians over
-//! rounds. Every answer of a slice is compared with that of the segment alone first.
+//! All write one clip for each segment into the same buffer, a thousand segments at a time, as a
+//! program does that uses the clips while they are in the cache. The clippers take turns; medians
+//! over rounds are printed. First every answer of a slice is compared with that of the segment alone.
 
-use crate::turns::{Pass, take_turns};
 use frusta::{
     Accuracy, Frustum, LiangBarsky, LiangBarskyVariant, Real, Segment, SegmentClip, SegmentClipper,
     VwProjection,
 };
 use frusta_lab::mixes::{self, COUNT, Form, Mix, frustum};
+use frusta_lab::turns::{Pass, take_turns};
 use std::hint::black_box;
 use std::time::Instant;
 
@@ -62,8 +61,12 @@ fn row<T: Real>(frustum: &Frustum, all: &[Segment<T>], rounds: usize) {
         Box::new(|| pass(VwProjection::plain(), frustum, all)),
         Box::new(|| pass(VwProjection::exact(Accuracy::Fast), frustum, all)),
     ];
-    for (time, ratio) in take_turns(&mut passes, rounds) {
-        print!(" {time:6.1} ({ratio:5.2})");
+    for timing in take_turns(&mut passes, rounds) {
+        print!(
+            " {:6.1} ({:5.2})",
+            timing.nanoseconds,
+            timing.ratio.inverse().median
+        );
     }
     println!();
 }

@@ -1,9 +1,8 @@
-//! Criterion's view of the same contests:
+//! The same contests by Criterion:
 //! `cargo bench --manifest-path benches/peers/Cargo.toml [-- FILTER]`.
 //!
-//! Answers are judged before they are timed: the exact tier must be right, and nobody may
-//! refuse an input. The program takes times in turns, which stands better on a machine that others
-//! use, too.
+//! Answers are judged before they are timed: the exact tier must be right, and no library may
+//! refuse an input. The program itself takes times in turns, which is better on a shared machine.
 
 use criterion::{Criterion, SamplingMode, Throughput, criterion_group, criterion_main};
 use frusta_peers::contest::{self, Effort};

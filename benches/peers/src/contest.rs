@@ -1,4 +1,4 @@
-//! Which jobs on which inputs, and who takes part.
+//! The jobs, their inputs, and who takes part.
 
 mod inputs;
 
@@ -6,10 +6,9 @@ use inputs::Source;
 pub use inputs::{boxes, quads};
 
 use crate::boxes::{
-    Batch, BevyLoop, Collision, GridBox, OursBatch, OursBox, OursPoint, PackedSpatialIndex,
-    REFERENCE_BOX, REFERENCE_BOXES, TreeCuller, Truth,
+    Batch, BevyLoop, Collision, GridBox, Listed, OursBatch, OursBox, OursPoint, PackedSpatialIndex,
+    REFERENCE_BOX, REFERENCE_BOXES, REFERENCE_SLICE, TreeCuller, Truth,
 };
-use frusta_lab::mixes::{self, Mix};
 use crate::peer::{Case, Contestant, Timed, enter};
 use crate::quads::{PlaneSplit, Quad};
 use crate::scene::{Block, Camera};
@@ -18,20 +17,21 @@ use crate::segments::{
     REFERENCE_SLICES, Slice, Transformed, contenders, cube_matrix,
 };
 use crate::tally::{Judge, SegmentJudge, Tally, count};
-use crate::turns::{REFERENCES, Time, take_turns};
 use frusta::{Frustum, Segment};
+use frusta_lab::mixes::{self, Mix};
+use frusta_lab::turns::{Spread, Turns};
 
 /// Contestants for one kind of case.
 pub type Field<C> = Vec<Box<dyn Contestant<C>>>;
 
-/// How much is done.
+/// How much is judged and timed.
 #[derive(Clone, Copy, Debug)]
 pub struct Effort {
-    /// What random input is made from.
+    /// The seed of random input.
     pub seed: u64,
-    /// Cases of a lattice or of uniform input that are counted.
+    /// Cases of a lattice or of uniform input that are judged.
     pub lattice: usize,
-    /// Cases of a mix that are counted.
+    /// Cases of a mix that are judged.
     pub mix: usize,
     /// Cases that are timed.
     pub timed: usize,
@@ -54,7 +54,7 @@ impl Effort {
         rounds: 21,
     };
 
-    /// To see that it works: its times flatter branches, which are learnt by heart.
+    /// A trial run: its times flatter branches, since branch predictors learn the few cases.
     pub const QUICK: Self = Self {
         seed: 1,
         lattice: 20_000,
@@ -68,7 +68,7 @@ impl Effort {
     }
 }
 
-/// By what segments are clipped.
+/// What segments are clipped by.
 #[derive(Clone, Copy, Debug)]
 pub enum Place {
     /// A box, an orthographic frustum.
@@ -79,12 +79,24 @@ pub enum Place {
     Frustum(Camera),
 }
 
+/// The number of references that times are compared with.
+pub const REFERENCES: usize = 5;
+
+/// The times of one contestant.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Time {
+    /// Nanoseconds a case, the median over rounds.
+    pub nanoseconds: f64,
+    /// As multiples of each reference's time in the same round.
+    pub ratios: [Option<Spread>; REFERENCES],
+}
+
 /// What one contestant did in one contest.
 #[derive(Clone, Debug)]
 pub struct Outcome {
-    /// Who.
+    /// The contestant.
     pub who: crate::peer::Who,
-    /// Its wrong answers; `None` where it was asked for its time only.
+    /// Its wrong answers; `None` if it was only timed.
     pub tally: Option<Tally>,
     /// Its times.
     pub time: Time,
@@ -103,13 +115,13 @@ pub trait Contest {
         false
     }
 
-    /// How many steps of progress [`Contest::run`] reports.
+    /// The number of steps that [`Contest::run`] reports.
     fn steps(&self, effort: &Effort) -> u64;
 
-    /// Everybody's wrong answers; `None` for who is asked for the time only.
+    /// The wrong answers of all; `None` for those that are only timed.
     fn tallies(&self, effort: &Effort, step: &(dyn Fn(u64) + Sync)) -> Vec<Option<Tally>>;
 
-    /// Everybody, loaded with the cases that are timed.
+    /// All contestants, loaded with the cases that are timed.
     fn loaded(&self, effort: &Effort) -> Vec<Box<dyn Timed>>;
 
     /// Counts and times.
@@ -137,8 +149,8 @@ impl Segments {
         }
     }
 
-    /// Who works in `f64`; the reference is the first.
-    pub fn doubles(&self) -> Field<Segment<f64>> {
+    /// The libraries in `f64`; the reference is the first.
+    pub fn in_f64(&self) -> Field<Segment<f64>> {
         let mut field = contenders(&self.frustum());
         let parry = |block, call| enter(ParryBox64::new(block, call));
         match &self.place {
@@ -155,8 +167,8 @@ impl Segments {
         field
     }
 
-    /// Who works in `f32`; the reference is the first, if anybody does.
-    pub fn singles(&self) -> Field<Segment<f32>> {
+    /// The libraries in `f32`; the reference is the first, if there are any.
+    pub fn in_f32(&self) -> Field<Segment<f32>> {
         let mut field = contenders(&self.frustum());
         let parry = |block, call| enter(ParryBox32::new(block, call));
         match &self.place {
@@ -186,13 +198,13 @@ impl Segments {
         effort.cases(self.source.is_mix())
     }
 
-    /// Knows the truth.
+    /// Decides the truth.
     pub fn judge(&self) -> SegmentJudge {
         SegmentJudge::new(&self.frustum())
     }
 }
 
-/// Counts for a field, those asked for times only left out.
+/// Wrong answers of a field; `None` for those that are only timed.
 fn tallies<C: Case, J: Judge<C>>(
     judge: &J,
     cases: &[C],
@@ -213,14 +225,15 @@ fn load<C: Case + 'static>(mut field: Field<C>, cases: &[C]) -> Vec<Box<dyn Time
     field.into_iter().map(|c| c as Box<dyn Timed>).collect()
 }
 
-/// Where the references are: exact-class V/W in `f64` and in `f32`, then both over slices. Where
-/// boxes are classified, frusta's `f32` alone and in batches stand in the places of `f64`.
+/// The references' indices: exact-class V/W in `f64` and in `f32`, then both over slices. For
+/// boxes: `Culler::classify`, the list of a set, and the list of a plain slice, all in `f32`.
 fn references(all: &[Box<dyn Timed>]) -> [Option<usize>; REFERENCES] {
     [
         [(REFERENCE, "f64"), (REFERENCE_BOX, "f32")],
         [(REFERENCE, "f32"), (REFERENCE, "f32")],
         [(REFERENCE_SLICES, "f64"), (REFERENCE_BOXES, "f32")],
         [(REFERENCE_SLICES, "f32"), (REFERENCE_SLICES, "f32")],
+        [(REFERENCE_SLICE, "f32"), (REFERENCE_SLICE, "f32")],
     ]
     .map(|references| {
         all.iter().position(|c| {
@@ -237,11 +250,19 @@ fn outcomes(
     step: &(dyn Fn(u64) + Sync),
 ) -> Vec<Outcome> {
     let references = references(&all);
-    let times = take_turns(&mut all, references, effort.rounds, || step(0));
-    let who = all.iter().map(|c| c.who());
+    let mut turns = Turns::new(all.len());
+    turns.take(effort.rounds, |i| all[i].time(), || step(0));
+    let time = |i: usize| Time {
+        nanoseconds: turns.nanoseconds(i),
+        ratios: references.map(|reference| Some(turns.ratios(i, reference?))),
+    };
+    let who = all.iter().map(|c| c.who()).enumerate();
     who.zip(tallies)
-        .zip(times)
-        .map(|((who, tally), time)| Outcome { who, tally, time })
+        .map(|((i, who), tally)| Outcome {
+            who,
+            tally,
+            time: time(i),
+        })
         .collect()
 }
 
@@ -266,19 +287,19 @@ impl Contest for Segments {
     fn tallies(&self, effort: &Effort, step: &(dyn Fn(u64) + Sync)) -> Vec<Option<Tally>> {
         let (judge, n) = (self.judge(), self.counted(effort));
         let cases = self.source.segments::<f64>(effort.seed, n);
-        let mut all = tallies(&judge, &cases, || self.doubles(), step);
-        if !self.singles().is_empty() {
+        let mut all = tallies(&judge, &cases, || self.in_f64(), step);
+        if !self.in_f32().is_empty() {
             let cases = self.source.segments::<f32>(effort.seed, n);
-            all.extend(tallies(&judge, &cases, || self.singles(), step));
+            all.extend(tallies(&judge, &cases, || self.in_f32(), step));
         }
         all
     }
 
     fn loaded(&self, effort: &Effort) -> Vec<Box<dyn Timed>> {
-        let doubles = self.source.segments::<f64>(effort.seed, effort.timed);
-        let singles = self.source.segments::<f32>(effort.seed, effort.timed);
-        let mut all = load(self.doubles(), &doubles);
-        all.extend(load(self.singles(), &singles));
+        let in_f64 = self.source.segments::<f64>(effort.seed, effort.timed);
+        let in_f32 = self.source.segments::<f32>(effort.seed, effort.timed);
+        let mut all = load(self.in_f64(), &in_f64);
+        all.extend(load(self.in_f32(), &in_f32));
         all
     }
 }
@@ -308,8 +329,11 @@ impl Boxes {
             field.push(enter(OursPoint::new(frustum)));
             return field;
         }
-        field.push(enter(OursBox::new(frustum, false)));
-        field.push(enter(OursBox::new(frustum, true)));
+        field.extend(lists(camera));
+        for exact in [false, true] {
+            field.push(enter(OursBox::new(frustum, exact)));
+            field.push(enter(Listed::new(OursBox::new(frustum, exact))));
+        }
         for batch in [
             Batch::Masks,
             Batch::List,
@@ -334,6 +358,18 @@ impl Boxes {
     fn counted(&self, effort: &Effort) -> usize {
         effort.cases(self.input != "half-lattice")
     }
+}
+
+/// The other libraries' tests of boxes in a loop that lists what is visible.
+fn lists(camera: &Camera) -> Field<GridBox> {
+    let mut field: Field<GridBox> = vec![
+        enter(Listed::new(PackedSpatialIndex::new(camera))),
+        enter(Listed::new(TreeCuller::new(camera, false))),
+        enter(Listed::new(TreeCuller::new(camera, true))),
+        enter(Listed::new(BevyLoop::new(camera))),
+    ];
+    field.extend(Collision::new(camera).map(|peer| enter(Listed::new(peer))));
+    field
 }
 
 impl Contest for Boxes {

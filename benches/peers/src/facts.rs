@@ -1,4 +1,4 @@
-//! Single inputs that end badly, each asked in a process of its own, since some never end.
+//! Single inputs that end badly, each in a process of its own, since some never end.
 
 mod inputs;
 
@@ -17,43 +17,42 @@ pub struct Fact {
     pub library: &'static str,
     /// Its version, from `Cargo.lock`.
     pub version: &'static str,
-    /// What of it was called.
+    /// The function that was called.
     pub what: &'static str,
-    /// With what.
+    /// The input.
     pub input: &'static str,
-    /// What came out.
+    /// The result.
     pub result: String,
-    /// What frusta says of the same; empty where it is not comparable.
+    /// frusta's answer to the same input; empty where there is no such function.
     pub ours: String,
 }
 
-/// How long an answer is waited for.
+/// How long to wait for an answer.
 pub const PATIENCE: Duration = Duration::from_secs(2);
 
-/// Asks all of them. `program` is this program, which answers `--fact NUMBER` by
-/// [`answer`]'s text.
+/// Runs all inputs. `program` is this program, which prints [`answer`]'s text for `--fact INDEX`.
 pub fn ask(program: &std::path::Path) -> Vec<Fact> {
-    let numbered = INPUTS.iter().enumerate();
-    numbered
-        .map(|(number, input)| Fact {
+    let indexed = INPUTS.iter().enumerate();
+    indexed
+        .map(|(index, input)| Fact {
             library: input.library,
             version: version(input.library).unwrap_or_default(),
             what: input.what,
             input: input.input,
-            result: in_a_child(program, number),
+            result: in_a_child(program, index),
             ours: (input.ours)(),
         })
         .collect()
 }
 
-/// The text for one input; `None` for a number that there is not.
-pub fn answer(number: usize) -> Option<String> {
-    INPUTS.get(number).map(|input| (input.theirs)())
+/// The text for one input, or `None` if the index is out of range.
+pub fn answer(index: usize) -> Option<String> {
+    INPUTS.get(index).map(|input| (input.theirs)())
 }
 
-fn in_a_child(program: &std::path::Path, number: usize) -> String {
+fn in_a_child(program: &std::path::Path, index: usize) -> String {
     let child = Command::new(program)
-        .args(["--fact", &number.to_string()])
+        .args(["--fact", &index.to_string()])
         .stdout(Stdio::piped())
         .stderr(Stdio::null())
         .spawn();

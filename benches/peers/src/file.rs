@@ -1,20 +1,21 @@
 //! The file: `README.md` documents its keys.
 
-use crate::boxes::{REFERENCE_BOX, REFERENCE_BOXES};
+use crate::boxes::{REFERENCE_BOX, REFERENCE_BOXES, REFERENCE_SLICE};
 use crate::contest::{Contest, Effort, Outcome};
 use crate::facts::Fact;
 use crate::machine::Machine;
 use crate::versions::version;
+use frusta_lab::turns::geometric_mean;
 use serde::Serialize;
 
 /// Everything that a run found.
 #[derive(Clone, Debug, Serialize)]
 pub struct Report {
-    /// Which kind of file this is.
+    /// The schema of this file.
     pub schema: &'static str,
-    /// Where the times are from.
+    /// The machine that the times are from.
     pub machine: Machine,
-    /// What random input was made from.
+    /// The seed of random input.
     pub seed: u64,
     /// Rounds that were timed.
     pub rounds: usize,
@@ -24,39 +25,43 @@ pub struct Report {
     pub facts: Vec<Fact>,
     /// Ratios of means over the mixes.
     pub headlines: Vec<Headline>,
-    /// What is unfair about all of it.
+    /// What is unfair about this comparison.
     pub bias: &'static str,
 }
 
 /// What one contestant did in one contest.
 #[derive(Clone, Debug, Serialize)]
 pub struct Row {
-    /// What had to be done.
+    /// The job.
     pub job: &'static str,
     /// The crate.
     pub library: &'static str,
     /// Its version, from `Cargo.lock`.
     pub version: &'static str,
-    /// What of it was called.
+    /// The function that was called.
     pub function: &'static str,
-    /// In which numbers.
+    /// The scalar type.
     pub scalar: &'static str,
-    /// On what.
+    /// The input.
     pub input: String,
     /// How many answers were judged; null if none.
     pub cases: Option<u64>,
     /// Median nanoseconds a case; null if there is nothing to time.
     pub ns_median: Option<f64>,
-    /// Times the time of exact-class V/W in `f64`, median over rounds.
+    /// The time as a multiple of that of exact-class V/W in `f64`, median over rounds; for boxes,
+    /// of that of `Culler::classify` in `f32`.
     pub time_ratio: Option<f64>,
     /// Its lower and upper quartile over rounds.
     pub time_ratio_quartiles: Option<[f64; 2]>,
-    /// Times the time of exact-class V/W in `f32`, median over rounds.
+    /// The same of exact-class V/W in `f32`; null for boxes.
     pub time_ratio_f32: Option<f64>,
-    /// Times the time of exact-class V/W in `f64` over slices, median over rounds.
+    /// The same of exact-class V/W in `f64` over slices; for boxes, of `Culler::visible_boxes` of
+    /// a set.
     pub time_ratio_slices: Option<f64>,
-    /// Times the time of exact-class V/W in `f32` over slices, median over rounds.
+    /// The same of exact-class V/W in `f32` over slices; null for boxes.
     pub time_ratio_slices_f32: Option<f64>,
+    /// For boxes, the same of `Culler::visible_boxes` of a plain slice; null for other jobs.
+    pub time_ratio_boxes: Option<f64>,
     /// Wrong answers: phantom, missed, misplaced and refused.
     pub wrong: Option<u64>,
     /// Hits where there is nothing.
@@ -72,7 +77,7 @@ pub struct Row {
     /// The largest error of an end, in unit roundoffs of the largest coordinate; null where
     /// no end was computed.
     pub max_error_u_scale: Option<f64>,
-    /// What one must know of it.
+    /// What a reader must know about it.
     pub note: &'static str,
 }
 
@@ -98,7 +103,8 @@ draws in terminals; plane-split orders quads for a compositor; the cullers are m
 too often. The half-integer lattice is where plain arithmetic fails most, which is why it is \
 there, beside mixes where it hardly fails. Everybody is called for one case at a time (retrofire \
 and frusta also for slices, which parry and line-clipping do not offer), with planes, matrices and types prepared; peers that work in f32 get frusta's \
-f32 beside its f64. Most clipped ends of everybody are outside by a rounding: that is counted, \
+f32 beside its f64. The tests of boxes are timed in a loop that makes a list, too, beside \
+frusta's lists. Most clipped ends of everybody are outside by a rounding: that is counted, \
 and not called wrong.";
 
 impl Row {
@@ -106,7 +112,7 @@ impl Row {
     pub fn new(contest: &dyn Contest, outcome: &Outcome) -> Self {
         let Outcome { who, tally, time } = outcome;
         let is_computed = |error: &f64| *error > 0.0;
-        let median = |reference: usize| time.ratios[reference].map(|[_, median, _]| median);
+        let median = |reference: usize| time.ratios[reference].map(|spread| spread.median);
         Self {
             job: contest.job(),
             library: who.library,
@@ -117,10 +123,11 @@ impl Row {
             cases: tally.map(|t| t.cases),
             ns_median: Some(time.nanoseconds),
             time_ratio: median(0),
-            time_ratio_quartiles: time.ratios[0].map(|[low, _, high]| [low, high]),
+            time_ratio_quartiles: time.ratios[0].map(|spread| [spread.lower, spread.upper]),
             time_ratio_f32: median(1),
             time_ratio_slices: median(2),
             time_ratio_slices_f32: median(3),
+            time_ratio_boxes: median(4),
             wrong: tally.map(|t| t.wrong()),
             phantom: tally.map(|t| t.phantom),
             missed: tally.map(|t| t.missed),
@@ -148,6 +155,7 @@ impl Row {
             time_ratio_f32: None,
             time_ratio_slices: None,
             time_ratio_slices_f32: None,
+            time_ratio_boxes: None,
             wrong: None,
             phantom: None,
             missed: None,
@@ -159,8 +167,8 @@ impl Row {
         }
     }
 
-    /// Answers of frusta's exact tier that are wrong, which none may be; of its conservative test
-    /// of boxes, those that miss something.
+    /// Broken promises of frusta: wrong answers of the exact tier, and misses of the conservative
+    /// test of boxes.
     pub fn broken_promises(&self) -> u64 {
         let is_exact = self.function.contains("exact") || self.job == "cull-point";
         match (self.library, self.job) {
@@ -171,11 +179,11 @@ impl Row {
     }
 }
 
-/// A job, a function and its library, whose times are told as means.
-type Told = (&'static str, &'static str, &'static str);
+/// A job, a function and its library, whose times are reported as means.
+type Reported = (&'static str, &'static str, &'static str);
 
-/// The first two are what everybody asks first.
-const TOLD: [Told; 13] = {
+/// The first two are the most usual questions.
+const REPORTED: [Reported; 19] = {
     let cull = "cull-box";
     let (boxes, window, frustum) = ("segment-box", "segment-window", "segment-frustum");
     let (clip, bounds) = ("Aabb::clip_segment", "clip_segment, bounding box");
@@ -194,25 +202,36 @@ const TOLD: [Told; 13] = {
         (cull, "BVol::test_against_frustum", "treeculler"),
         (cull, "HalfSpace, in bevy_camera's loop", "bevy_shape"),
         (cull, "Culler::classify_exact", "frusta"),
+        (cull, "overlaps_box, list", "packed_spatial_index"),
+        (cull, "BVol::test_against_plane, six, list", "treeculler"),
+        (cull, "BVol::test_against_frustum, list", "treeculler"),
+        (cull, "HalfSpace, in bevy_camera's loop, list", "bevy_shape"),
+        (cull, "Culler::classify, list", "frusta"),
+        (cull, "Culler::classify_exact, list", "frusta"),
     ]
 };
 
 /// A row's ratio of times.
 type Ratio = fn(&Row) -> Option<f64>;
 
-/// Exact-class V/W in its four ways, and what others take in its times.
-const OURS: [(&str, Ratio); 4] = [
+/// What times are compared with: exact-class V/W in four ways; for boxes, three of frusta's
+/// functions.
+const OURS: [(&str, Ratio); 5] = [
     ("f64", |row| row.time_ratio),
     ("f64, slices", |row| row.time_ratio_slices),
     ("f32", |row| row.time_ratio_f32),
     ("f32, slices", |row| row.time_ratio_slices_f32),
+    (REFERENCE_SLICE, |row| row.time_ratio_boxes),
 ];
 
-/// What boxes' times are compared with.
-fn boxes(ours: &str) -> &'static str {
-    match ours {
-        "f64" => REFERENCE_BOX,
-        _ => REFERENCE_BOXES,
+/// What the times of boxes are compared with; `None` where one call a box would be compared with
+/// a list.
+fn boxes(ours: &str, function: &str) -> Option<&'static str> {
+    match (ours, function.ends_with(", list")) {
+        ("f64", false) => Some(REFERENCE_BOX),
+        ("f64, slices", true) => Some(REFERENCE_BOXES),
+        (REFERENCE_SLICE, true) => Some(REFERENCE_SLICE),
+        _ => None,
     }
 }
 
@@ -220,24 +239,25 @@ fn boxes(ours: &str) -> &'static str {
 pub fn headlines(rows: &[Row]) -> Vec<Headline> {
     let is_mix = |row: &&Row| !matches!(&row.input[..], "half-lattice" | "uniform");
     let mut all = Vec::new();
-    for told in TOLD {
-        let is_it = |row: &&Row| (row.job, row.function, row.library) == told;
-        let (job, function, library) = told;
+    for reported in REPORTED {
+        let is_it = |row: &&Row| (row.job, row.function, row.library) == reported;
+        let (job, function, library) = reported;
         for (ours, ratio) in OURS {
             let found = rows.iter().filter(is_it).filter(is_mix);
             let ratios: Vec<f64> = found.filter_map(ratio).collect();
-            if ratios.is_empty() {
+            let least = ratios.iter().copied().fold(f64::INFINITY, f64::min);
+            let Some(ratio) = geometric_mean(ratios) else {
                 continue;
-            }
-            let logs: f64 = ratios.iter().map(|r| r.ln()).sum();
-            all.push(Headline {
-                what: match job {
-                    "cull-box" => format!("{job}: {library} {function} / {}", boxes(ours)),
-                    _ => format!("{job}: {library} {function} / exact V/W {ours}"),
-                },
-                ratio: (logs / ratios.len() as f64).exp(),
-                least: ratios.iter().copied().fold(f64::INFINITY, f64::min),
-            });
+            };
+            let reference = match job {
+                "cull-box" => boxes(ours, function).map(str::to_owned),
+                _ => Some(format!("exact V/W {ours}")),
+            };
+            all.extend(reference.map(|reference| Headline {
+                what: format!("{job}: {library} {function} / {reference}"),
+                ratio,
+                least,
+            }));
         }
     }
     all

@@ -1,16 +1,15 @@
 //! Other libraries' clipping and culling beside frusta's: the same jobs on the same
 //! input, their times, and their wrong answers, counted by frusta's oracle.
 //!
-//! - [`peer`]: what a library must do to take part
+//! - [`peer`]: the interface of a library that takes part
 //! - [`scene`]: the frusta and the matrices that describe them to the others
 //! - [`segments`], [`quads`], [`boxes`]: the jobs, a file a library
 //! - [`tally`]: wrong answers, counted
-//! - [`turns`]: times, taken in turns
-//! - [`contest`]: which jobs on which inputs
+//! - [`contest`]: the jobs, their inputs, and who takes part
 //! - [`facts`]: single inputs that end badly, each in a process of its own
-//! - [`file`](mod@file), [`table`], [`versions`], [`machine`]: what comes out
+//! - [`file`](mod@file), [`table`], [`versions`], [`machine`]: the output
 //!
-//! `README.md` says what is fair about it and what is not.
+//! `README.md` documents the jobs, the file and our bias.
 
 pub mod boxes;
 pub mod contest;
@@ -23,6 +22,4 @@ pub mod scene;
 pub mod segments;
 pub mod table;
 pub mod tally;
-pub mod turns;
 pub mod versions;
-

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-/// What is known of it; a text that cannot be found out is empty.
+/// Processor, system and compiler; unknown texts are empty.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Machine {
     /// The processor's own name.
@@ -30,7 +30,7 @@ impl Machine {
     }
 }
 
-/// Linux says it in a file.
+/// The processor's name, where Linux gives it.
 fn cpu() -> Option<String> {
     let info = std::fs::read_to_string("/proc/cpuinfo").ok()?;
     let line = info.lines().find(|line| line.starts_with("model name"))?;

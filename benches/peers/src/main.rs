@@ -1,5 +1,5 @@
-//! `frusta-peers [--quick] [--seed N] [--cases N] [--out FILE]`: everybody does the same jobs; a table, and
-//! a file for `frusta report --peers FILE`.
+//! `frusta-peers [--quick] [--seed N] [--cases N] [--out FILE]`: all libraries do the same jobs; prints a
+//! table, and writes a file for `frusta report --peers FILE`.
 
 use clap::Parser;
 use frusta_peers::contest::{self, Effort};
@@ -15,23 +15,23 @@ use std::process::ExitCode;
 #[derive(Parser)]
 #[command(version)]
 struct Args {
-    /// Few cases and rounds: to see that it works.
+    /// Few cases and rounds: a trial run.
     #[arg(long)]
     quick: bool,
-    /// What random input is made from.
+    /// The seed of random input.
     #[arg(long, default_value_t = Effort::FULL.seed)]
     seed: u64,
-    /// Cases that are timed; of fewer than 262,144 branch predictors learn some by heart, of as
-    /// many small caches do not hold all.
+    /// Cases that are timed. Branch predictors learn some of fewer than 262,144 by heart; small
+    /// caches do not hold as many.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=4_000_000))]
     cases: Option<u32>,
-    /// Where the file goes.
+    /// The file to write.
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
     /// One job only, such as cull-box; all of its inputs.
     #[arg(long, value_name = "NAME")]
     job: Option<String>,
-    /// Answers one hostile input; asked by this program itself.
+    /// Runs one hostile input; for this program's own use.
     #[arg(long, hide = true)]
     fact: Option<usize>,
 }
@@ -39,7 +39,7 @@ struct Args {
 fn main() -> ExitCode {
     match run(&Args::parse()) {
         Ok(()) => ExitCode::SUCCESS,
-        // Whoever closed the pipe knows why.
+        // A closed pipe is no failure.
         Err(error) if error.kind() == io::ErrorKind::BrokenPipe => ExitCode::SUCCESS,
         Err(error) => {
             eprintln!("frusta-peers: {error}");
@@ -67,7 +67,7 @@ fn run(args: &Args) -> io::Result<()> {
     };
     let failed = |path: &Path, e| io::Error::other(format!("{}: {e}", path.display()));
     if let Some(path) = &args.out {
-        // Now, not after minutes.
+        // A file that cannot be written fails now, not after minutes.
         let opened = File::options().append(true).create(true).open(path);
         opened.map_err(|e| failed(path, e))?;
     }
@@ -124,7 +124,7 @@ fn conclude(report: &Report, out: &mut impl Write) -> io::Result<()> {
     for fact in &report.facts {
         writeln!(out, "{}", table::fact(fact))?;
     }
-    let title = "times over ours (segments: exact-class V/W's), over the mixes";
+    let title = "times as multiples of ours (segments: exact-class V/W's), over the mixes";
     writeln!(out, "\n{title:<86} {:>5} {:>5}", "mean", "least")?;
     for headline in &report.headlines {
         writeln!(out, "{}", table::headline(headline))?;

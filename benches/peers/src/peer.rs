@@ -1,29 +1,29 @@
-//! What a library must do to take part.
+//! The interface of a library that takes part.
 //!
-//! Everything that a program would prepare once (planes, matrices, its own types)
-//! is prepared outside of what is timed. Every library is called the same way, for
-//! one case at a time, in a call that is not inlined into the loop; one that works on
-//! slices may say so in its own [`Peer::pass`] and [`Peer::answers`].
+//! Everything that a program would prepare once (planes, matrices, its own types) is not timed.
+//! Every library is called the same way, for one case at a time, in a call that is not inlined into
+//! the loop; one that works on slices or makes lists has its own [`Peer::pass`] and
+//! [`Peer::answers`].
 
 use std::hint::black_box;
 use std::time::Instant;
 
-/// Who answers, and how.
+/// A library and how it is used.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Who {
     /// The crate, as its registry names it.
     pub library: &'static str,
-    /// What of it is called.
+    /// The function that is called.
     pub function: &'static str,
-    /// In which numbers it works: `f32` or `f64`.
+    /// The scalar type in which it works: `f32` or `f64`.
     pub scalar: &'static str,
-    /// What one must know of this use; empty if nothing.
+    /// What a reader must know about this use; empty if nothing.
     pub note: &'static str,
 }
 
-/// A question of which the truth can be known.
+/// A question whose true answer can be computed.
 pub trait Case: Clone + Send + Sync {
-    /// What an answer says.
+    /// The answer.
     type Answer;
 }
 
@@ -38,7 +38,7 @@ pub trait Peer {
     where
         Self: 'a;
 
-    /// Its name.
+    /// The library and how it is used.
     fn who(&self) -> Who;
 
     /// Turns a question into the library's own types; not timed.
@@ -47,10 +47,10 @@ pub trait Peer {
     /// The job; this is what is timed.
     fn run(&mut self, input: &Self::Input) -> Self::Output<'_>;
 
-    /// What the job's answer says; not timed.
+    /// The job's answer; not timed.
     fn answer(&mut self, case: &Self::Case) -> <Self::Case as Case>::Answer;
 
-    /// What the job says of many cases; one that works on slices is asked for slices.
+    /// The answers to many cases; libraries that work on slices are called with slices.
     fn answers(&mut self, cases: &[Self::Case]) -> Vec<<Self::Case as Case>::Answer> {
         cases.iter().map(|case| self.answer(case)).collect()
     }
@@ -72,7 +72,7 @@ fn call<'a, P: Peer + ?Sized>(peer: &'a mut P, input: &P::Input) -> P::Output<'a
 
 /// Something that can be timed.
 pub trait Timed {
-    /// Its name.
+    /// The library and how it is used.
     fn who(&self) -> Who;
 
     /// Does the job once for each loaded case.
@@ -81,8 +81,8 @@ pub trait Timed {
     /// How many cases are loaded.
     fn loaded(&self) -> usize;
 
-    /// Nanoseconds a case in one pass. Another one goes before: whoever had the turn before has
-    /// swept these cases out of the caches, and memory is not what is compared.
+    /// Nanoseconds a case in one pass. Another pass precedes it: the contestant before has swept
+    /// these cases out of the caches, and memory is not compared.
     fn time(&mut self) -> f64 {
         self.pass();
         let start = Instant::now();

@@ -1,7 +1,7 @@
 //! The frusta, and the matrices and boxes that describe them to the others.
 
-use frusta_lab::mixes::{self, Form};
 use frusta::{EndRect, Frustum, Pose, Rect, Shape, Vec3};
+use frusta_lab::mixes::{self, Form};
 
 /// A symmetric perspective camera.
 #[derive(Clone, Copy, Debug)]
@@ -10,15 +10,15 @@ pub struct Camera {
     pub slopes: [f64; 2],
     /// Depth of the near and the far face.
     pub depths: [f64; 2],
-    /// Which way it looks along its frame's `z`: 1 or -1.
+    /// The sign of its direction along its frame's `z`: 1 or -1.
     pub direction: f64,
-    /// Where it is.
+    /// Its position and axes.
     pub pose: Pose,
 }
 
 impl Camera {
     /// Between `z = 1` and `z = 3`, sides of slope 1: its matrix has small integers only,
-    /// so nobody is given a rounded one.
+    /// so no library is given a rounded one.
     pub const LATTICE: Self = Self {
         slopes: [1.0, 1.0],
         depths: [1.0, 3.0],
@@ -53,7 +53,7 @@ impl Camera {
     /// The camera of frusta's own benchmarks: 60 degrees high, 16:9, 1 to 100.
     ///
     /// # Panics
-    /// The benchmarks' frustum is not what it was when this was written.
+    /// The benchmarks' frustum has been changed.
     pub fn of_mixes(pose: Pose) -> Self {
         let shape = Form::Symmetric.shape();
         let (near, far) = (shape.near(), shape.far().expect("has a far face"));

@@ -1,11 +1,10 @@
 //! Wrong answers, counted.
 //!
-//! Right is what the closed set says exactly, touching included. An answer is wrong if it sees
-//! something where there is nothing (*phantom*), nothing where there is something (*missed*), is
-//! refused or not finite, or has an end in a wrong place (*misplaced*): given back as it was
-//! although it is outside, or farther off than any rounding explains. An
-//! end that is *outside* by rounding, as most clipped ends of everybody are, is counted beside
-//! and is not wrong.
+//! The right answer is exactly that of the closed set, touching included. An answer is wrong if it
+//! is a hit where there is nothing (*phantom*), nothing where there is a hit (*missed*), refused or
+//! not finite, or has an end in a wrong place (*misplaced*): returned unchanged although it is
+//! outside, or farther off than any rounding explains. An end that is *outside* by rounding, as
+//! most clipped ends of all libraries are, is counted separately and is not wrong.
 
 use crate::boxes::{GridBox, Truth};
 use crate::peer::{Case, Contestant};
@@ -24,15 +23,15 @@ pub const FAR_OFF: f64 = 1.0 / 1024.0;
 /// Counts over cases.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Tally {
-    /// How many were asked.
+    /// The number of cases.
     pub cases: u64,
-    /// Something is seen where there is nothing.
+    /// Hits where there is nothing.
     pub phantom: u64,
-    /// Nothing is seen where there is something.
+    /// Misses where there is a hit.
     pub missed: u64,
     /// Hits, rightly, with an end that is not in the set.
     pub outside: u64,
-    /// Hits, rightly, with an end given back as it was although it is outside, or off by more than
+    /// Hits, rightly, with an end returned unchanged although it is outside, or off by more than
     /// [`FAR_OFF`].
     pub misplaced: u64,
     /// Errors and numbers that are not finite.
@@ -58,7 +57,7 @@ impl Tally {
         self.max_error = self.max_error.max(other.max_error);
     }
 
-    /// One case of which only `seen` is to be compared with the truth.
+    /// One case whose answer is only whether it is a hit.
     fn of_seen(seen: Option<bool>, truth: bool) -> Self {
         Self {
             cases: 1,
@@ -70,12 +69,12 @@ impl Tally {
     }
 }
 
-/// Knows the truth about cases of one kind.
+/// Decides cases of one kind exactly.
 pub trait Judge<C: Case>: Sync {
     /// The truth about one case.
     type Truth;
 
-    /// Finds it out, exactly.
+    /// The truth, exactly.
     fn truth(&self, case: &C) -> Self::Truth;
 
     /// The tally of one answer.

@@ -24,10 +24,12 @@ mod tests {
         assert_eq!(version("no such crate"), None);
     }
 
-    /// From frusta's own manifest.
+    /// From the manifest of frusta's workspace, whose packages have one version.
     fn frusta_version() -> &'static str {
         let manifest = include_str!("../../../Cargo.toml");
-        let line = manifest.lines().find(|line| line.starts_with("version = "));
+        let lines = manifest.lines();
+        let mut package = lines.skip_while(|line| *line != "[workspace.package]");
+        let line = package.find(|line| line.starts_with("version = "));
         line.and_then(|line| line.split('"').nth(1)).expect("one")
     }
 }

@@ -1,8 +1,8 @@
-//! Every library is used as it is meant: on easy cases all say the same, and what they say is
-//! true.
+//! Every library is used as it is meant: on easy cases all give the same answer, and it is true.
 
 use frusta::samples::Random;
 use frusta::{Real, Segment, Vec3};
+use frusta_lab::turns::Spread;
 use frusta_peers::boxes::GridBox;
 use frusta_peers::contest::{Contest, Effort, Field, Quads, Segments, all, cullings, segments};
 use frusta_peers::facts;
@@ -57,17 +57,17 @@ fn single(s: &Segment<f64>) -> Segment<f32> {
     Segment::new(Vec3::from_f64(s.start), Vec3::from_f64(s.end))
 }
 
-/// What is asked for its time only answers another question.
+/// Those that are only timed answer another question.
 fn is_judged(note: &str) -> bool {
     !note.contains("times only")
 }
 
 #[test]
-fn easy_segments_are_everybodys() {
+fn all_agree_on_easy_segments() {
     for contest in segments() {
         let judge = contest.judge();
         let mut random = Random::new(&[11]);
-        let (mut doubles, mut singles) = (contest.doubles(), contest.singles());
+        let (mut in_f64, mut in_f32) = (contest.in_f64(), contest.in_f32());
         let mut kinds = [0; 3];
         for i in 0..300 {
             let (a, b) = [(0.9, 0.9), (0.9, 60.0), (60.0, 60.0)][i % 3];
@@ -75,17 +75,17 @@ fn easy_segments_are_everybodys() {
             let end = easy_point(&mut random, &contest, b);
             let s = flattened(&contest, Segment::new(start, end));
             let mut truth = judge.truth(&s);
-            for peer in doubles.iter_mut().filter(|p| is_judged(p.who().note)) {
+            for peer in in_f64.iter_mut().filter(|p| is_judged(p.who().note)) {
                 let tally = judge.judge(&s, &mut truth, &peer.ask(&s));
                 check(&peer.who(), &tally, &s, &contest);
             }
             let s = single(&s);
             let mut truth = judge.truth(&s);
-            for peer in singles.iter_mut().filter(|p| is_judged(p.who().note)) {
+            for peer in in_f32.iter_mut().filter(|p| is_judged(p.who().note)) {
                 let tally = judge.judge(&s, &mut truth, &peer.ask(&s));
                 check(&peer.who(), &tally, &s.to_f64(), &contest);
             }
-            let found = doubles[0].ask(&flattened(&contest, Segment::new(start, end)));
+            let found = in_f64[0].ask(&flattened(&contest, Segment::new(start, end)));
             kinds[match found {
                 Found::Nothing => 0,
                 Found::Part(ends) if ends[0].kept && ends[1].kept => 1,
@@ -96,7 +96,8 @@ fn easy_segments_are_everybodys() {
     }
 }
 
-/// What frusta says over slices is what it says of each segment; how many clippers were compared.
+/// Asserts that frusta's answers over slices are those of each segment; returns how many clippers
+/// were compared.
 fn assert_same<T: Real>(mut field: Field<Segment<T>>, all: &[Segment<T>]) -> usize {
     let names: Vec<_> = field.iter().map(|p| p.who()).collect();
     let mut count = 0;
@@ -132,11 +133,11 @@ fn slices_answer_as_single_segments_do() {
             let [a, b] = if i % 8 < 4 { [a, b].map(near) } else { [a, b] };
             flattened(&contest, Segment::new(a, b))
         };
-        let doubles: Vec<_> = (0..1500).map(&mut case).collect();
-        let singles: Vec<_> = doubles.iter().map(single).collect();
-        assert_eq!(assert_same(contest.doubles(), &doubles), 4);
-        let kinds = assert_same(contest.singles(), &singles);
-        assert_eq!(kinds, if contest.singles().is_empty() { 0 } else { 4 });
+        let in_f64: Vec<_> = (0..1500).map(&mut case).collect();
+        let in_f32: Vec<_> = in_f64.iter().map(single).collect();
+        assert_eq!(assert_same(contest.in_f64(), &in_f64), 4);
+        let kinds = assert_same(contest.in_f32(), &in_f32);
+        assert_eq!(kinds, if contest.in_f32().is_empty() { 0 } else { 4 });
     }
 }
 
@@ -165,7 +166,7 @@ fn exact_tiers_are_right_and_the_reference_is_first() {
     for contest in all().iter().filter(|c| c.job().starts_with("segment")) {
         let outcomes = contest.run(&effort, &|_| ());
         assert_eq!(outcomes[0].who.function, REFERENCE);
-        assert_eq!(outcomes[0].time.ratios[0], Some([1.0; 3]));
+        assert_eq!(outcomes[0].time.ratios[0], Some(Spread::new(vec![1.0])));
         let exact = outcomes.iter().filter(|o| o.who.function.contains("exact"));
         for outcome in exact {
             let tally = outcome.tally.expect("judged");
@@ -188,12 +189,12 @@ fn known_failures_are_counted() {
         let s = Segment::new(ends[0], ends[1]);
         if single_precision {
             let s = single(&s);
-            let mut field = contest.singles();
+            let mut field = contest.in_f32();
             let peer = field.iter_mut().find(|p| p.who().function == function);
             let answer = peer.expect("takes part").ask(&s);
             judge.judge(&s, &mut judge.truth(&s), &answer)
         } else {
-            let mut field = contest.doubles();
+            let mut field = contest.in_f64();
             let peer = field.iter_mut().find(|p| p.who().function == function);
             let answer = peer.expect("takes part").ask(&s);
             judge.judge(&s, &mut judge.truth(&s), &answer)
@@ -223,7 +224,7 @@ fn known_failures_are_counted() {
 }
 
 #[test]
-fn easy_boxes_are_everybodys() {
+fn all_agree_on_easy_boxes() {
     for contest in cullings() {
         let camera = contest.camera();
         let half = if contest.job() == "cull-point" {
@@ -279,7 +280,7 @@ fn easy_quads_are_cut_rightly() {
 }
 
 #[test]
-fn hostile_inputs_end_as_they_are_told() {
+fn hostile_inputs_end_as_documented() {
     let facts = facts::ask(std::path::Path::new(env!("CARGO_BIN_EXE_frusta-peers")));
     let result = |library: &str, part: &str| {
         let is_it = |f: &&facts::Fact| f.library == library && f.input.contains(part);

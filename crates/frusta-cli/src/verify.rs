@@ -1,8 +1,9 @@
-//! `frusta verify`: the families of hard cases through the exact clipper, each
-//! answer compared with rational arithmetic.
+//! `frusta verify`: the families of hard cases through the exact clipper, each answer compared with
+//! rational arithmetic.
 
 use crate::failure::Failure;
-use crate::terminal::{print, progress_bar};
+use crate::report::{Kind, Progress};
+use crate::terminal::print;
 use clap::Args;
 use frusta::oracle::ViolationKind;
 use frusta::samples::Family;
@@ -15,8 +16,8 @@ use std::process::ExitCode;
 
 /// Check the exact clipper against rational arithmetic on families of hard cases
 ///
-/// Each case is clipped with all three accuracies, also with its ends swapped, and, if inward, once
-/// more. Class, face sets, ends and points must be those of rational arithmetic.
+/// Each case is clipped with all three accuracies, also with its ends swapped, and inward parts are
+/// clipped again. Class, face sets, ends and points must agree with rational arithmetic.
 #[derive(Args, Debug)]
 #[command(after_long_help = LEGEND)]
 pub(crate) struct VerifyArgs {
@@ -24,27 +25,27 @@ pub(crate) struct VerifyArgs {
     #[arg(long, value_name = "COUNT", default_value = "150000")]
     #[arg(value_parser = clap::value_parser!(u64).range(1..=MOST_CASES))]
     cases: u64,
-    /// Which cases
+    /// The seed of all cases
     #[arg(long, default_value = "1")]
     seed: u64,
     /// Only this family; may be given several times [default: all]
     #[arg(long, value_name = "NAME")]
     family: Vec<Family>,
-    /// Threads [default: one a core]; the results do not depend on it
+    /// Threads [default: one a core]; the findings do not depend on it
     #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u16).range(1..=256))]
     threads: Option<u16>,
-    /// Flat rows as JSON on the standard output
+    /// Print flat rows as JSON
     #[arg(long)]
     json: bool,
-    /// Boxes, oriented boxes and spheres instead of segments: COUNT of each kind in each family
+    /// Verify boxes, oriented boxes and spheres instead of segments: COUNT of each kind in each family
     #[arg(long)]
     volumes: bool,
-    /// List the families instead
+    /// List the families
     #[arg(long)]
     list: bool,
 }
 
-/// So that no sum over the families leaves 64 bits.
+/// No sum over the families exceeds 64 bits.
 const MOST_CASES: u64 = 1 << 48;
 
 /// Runs the command.
@@ -61,25 +62,26 @@ pub(crate) fn run(args: &VerifyArgs) -> Result<ExitCode, Failure> {
         cases: args.cases,
         seed: args.seed,
         threads: args.threads.map_or_else(crate::cores, usize::from),
-        singles: true,
+        with_f32: true,
     };
     if args.volumes {
         return volumes(&options, args.json);
     }
-    let bar = progress_bar(options.total());
+    let progress = progress(options.total());
     let mut written = Ok(());
-    let mut say = |text: String| {
+    let mut show = |text: String| {
         if !args.json && written.is_ok() {
-            written = bar.suspend(|| print(&text));
+            written = progress.suspend(|| print(&text));
         }
     };
-    say(format!("{}\n", VerifyTable::heading()));
-    let rows = verify_watched(&ExactClipper, &options, &|cases| bar.inc(cases), |row| {
-        say(format!("{row}\n"))
+    show(format!("{}\n", VerifyTable::heading()));
+    let on_cases = |cases| progress.add(0, cases);
+    let rows = verify_watched(&ExactClipper, &options, &on_cases, |row| {
+        show(format!("{row}\n"))
     });
-    bar.finish_and_clear();
-    say(VerifyTable(&rows).summary());
+    show(VerifyTable(&rows).summary());
     written?;
+    progress.finish();
     if args.json {
         let rows: Vec<Value> = rows.iter().map(|r| to_json(r, args.seed)).collect();
         print(&format!("{:#}\n", Value::from(rows)))?;
@@ -91,30 +93,39 @@ pub(crate) fn run(args: &VerifyArgs) -> Result<ExitCode, Failure> {
     })
 }
 
-/// Bounding volumes, by themselves and in batches.
+/// Progress through this many cases, which take about the same time each.
+fn progress(cases: u64) -> Progress {
+    Progress::new([Kind {
+        units: cases,
+        usual: 1.0,
+    }])
+}
+
+/// Bounding volumes, one by one and in batches.
 fn volumes(options: &Options, is_json: bool) -> Result<ExitCode, Failure> {
-    let kinds = VolumeKind::ALL.len() as u64;
-    let bar = progress_bar(options.families.len() as u64 * kinds * options.cases);
-    let say = |text: String| match is_json {
+    let kinds = |&family: &Family| VolumeKind::of_family(family).count() as u64;
+    let rows: u64 = options.families.iter().map(kinds).sum();
+    let progress = progress(rows * options.cases);
+    let show = |text: String| match is_json {
         true => Ok(()),
-        false => bar.suspend(|| print(&text)),
+        false => progress.suspend(|| print(&text)),
     };
-    say(format!("{}\n", VolumeRow::heading()))?;
+    show(format!("{}\n", VolumeRow::heading()))?;
     let mut sums = VolumeKind::ALL.map(|kind| (kind, VolumeTally::default()));
     let mut all = Vec::new();
     for &family in &options.families {
-        let done = |cases| bar.inc(cases);
+        let done = |cases| progress.add(0, cases);
         let rows = verify_volumes(family, options.cases, options.seed, options.threads, &done);
         for row in &rows {
-            say(format!("{row}\n"))?;
+            show(format!("{row}\n"))?;
             sums[row.kind as usize].1 += row.tally;
             all.push(volumes_to_json(row, options.seed));
         }
     }
     for (kind, tally) in &sums {
-        say(format!("{:<18} {:<10} {tally}\n", "all", kind.name()))?;
+        show(format!("{:<18} {:<10} {tally}\n", "all", kind.name()))?;
     }
-    bar.finish_and_clear();
+    progress.finish();
     if is_json {
         print(&format!("{:#}\n", Value::from(all)))?;
     }
@@ -134,7 +145,7 @@ fn list() -> Result<(), Failure> {
     print(&text)
 }
 
-/// A row with nothing nested in it.
+/// A flat row.
 fn to_json(row: &FamilyRow, seed: u64) -> Value {
     let mut object = json!({
         "family": row.family.name(),
@@ -159,7 +170,7 @@ fn to_json(row: &FamilyRow, seed: u64) -> Value {
     object
 }
 
-/// The same of volumes.
+/// A flat row of volumes.
 fn volumes_to_json(row: &VolumeRow, seed: u64) -> Value {
     let (tally, counts) = (&row.tally, &row.tally.counts);
     let [outside, crossing, inside] = tally.classes;
@@ -186,22 +197,22 @@ const LEGEND: &str = "\
 Columns
   class sets   cases with a wrong class; with a wrong entry, exit or coplanar set
   ends         an end that was not clipped was changed, or a depth of a near or far hit
-  points       a point or parameter outside its accuracy's bound
-  inward       an inward point is outside, or one was missed
-  G5 G6        swapped ends give something else; an inward part clips to something else
+  points       a point or parameter beyond its accuracy's bound
+  inward       an inward point is outside, or an inward point exists and was not found
+  G5 G6        another answer for swapped ends; another part when an inward part is clipped again
   near%        cases with an end within 4 ulp of a face, or a line so close to an edge or vertex
   filt.%       cases that the floating-point filter did not settle
   exp.% int.%  cases that needed expansions; that needed big integers
   none%        inward ends without a representable point inside
   G7max mean   by how many ulps inward ends could still move outwards
-After the sum comes the first witness of each family in which something is wrong, in hexadecimal.
+The sum is followed by the first wrong case of each family, in hexadecimal.
 
 With --volumes
-  wrong        classes that are wrong; outside: of these, called outside
+  wrong        wrong classes; outside: those among them that are wrongly outside
   batch exact  wrong classes in a batch; wrong answers of the exact test
-  out% in%     volumes that are outside of a face's plane; that are inside
-  false%       volumes outside of no face's plane that are apart all the same
-  filt.%       signs the filter left open; exp.%, int.%: taken from expansions, integers
+  out% in%     volumes that a face's plane rejects; that are inside
+  false%       volumes that no face's plane rejects, but that are outside of the frustum
+  filt.%       signs that the filter did not settle; exp.%, int.%: that expansions, integers settled
 
 Examples
   frusta verify
@@ -211,5 +222,5 @@ Examples
 
 Exit codes:
   0  nothing is wrong
-  1  something is
+  1  something is wrong
   2  wrong usage, or the output could not be written";

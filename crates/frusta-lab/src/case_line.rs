@@ -24,13 +24,13 @@ use std::str::FromStr;
 /// back with the same bits.
 ///
 /// ```
-/// use frusta::report::CaseLine;
+/// use frusta_lab::CaseLine;
 /// let typed = "f64 near 1 -1 1 -1 1 far 3 -3 3 -3 3 segment 0 0 2 4 0 0x1p+1";
 /// let case: CaseLine = typed.parse()?;
 /// let line = case.to_string();
 /// assert!(line.ends_with("segment 0x0p+0 0x0p+0 0x1p+1 0x1p+2 0x0p+0 0x1p+1"));
 /// assert_eq!(line.parse(), Ok(case));
-/// # Ok::<(), frusta::report::CaseLineError>(())
+/// # Ok::<(), frusta_lab::CaseLineError>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct CaseLine {

@@ -1,7 +1,7 @@
 //! Checks a segment's answers against every guarantee at once: the oracle's
 //! truth, the swapped segment, the answer's own clip, and all algorithms.
 //!
-//! Tests and fuzz targets share it, so that a find and its regression test check the same.
+//! Tests and fuzz targets share it, so that a finding and its regression test check the same.
 
 use frusta::oracle::{Oracle, check_idempotent, check_swapped};
 use frusta::{
@@ -24,7 +24,7 @@ pub fn exact_clippers<T: Real>(accuracy: Accuracy) -> [Box<dyn SegmentClipper<T>
     ]
 }
 
-/// An answer as bits: unlike `==`, tells zeros of either sign apart.
+/// An answer as bits, which distinguish the signs of zeros, unlike `==`.
 pub fn bits<T: Real>(answer: &SegmentClip<T>) -> Vec<u64> {
     let end = |e: &PartEnd<T>| {
         let [x, y, z] = e.point.to_f64().to_array().map(f64::to_bits);
@@ -45,7 +45,7 @@ pub fn bits<T: Real>(answer: &SegmentClip<T>) -> Vec<u64> {
     all
 }
 
-/// Everything that is wrong with the exact answers about a segment, as text.
+/// All faults of the exact answers to a segment, as text.
 ///
 /// A segment that is not finite must be refused, naming what is wrong.
 pub fn guarantees<T: Real>(frustum: &Frustum, segment: &Segment<T>) -> Vec<String> {
@@ -63,9 +63,9 @@ pub fn guarantees<T: Real>(frustum: &Frustum, segment: &Segment<T>) -> Vec<Strin
             }
             (answer, _) => {
                 for clipper in exact_clippers::<T>(accuracy) {
-                    let said = clipper.clip_segment(frustum, segment).err();
-                    if format!("{said:?}") != format!("{refusal:?}") {
-                        found.push(format!("{}: {said:?}, not {refusal:?}", clipper.name()));
+                    let error = clipper.clip_segment(frustum, segment).err();
+                    if format!("{error:?}") != format!("{refusal:?}") {
+                        found.push(format!("{}: {error:?}, not {refusal:?}", clipper.name()));
                     }
                 }
                 if format!("{:?}", answer.as_ref().err()) != format!("{refusal:?}") {
@@ -97,7 +97,7 @@ pub fn guarantees<T: Real>(frustum: &Frustum, segment: &Segment<T>) -> Vec<Strin
     found
 }
 
-/// Panics, with the input, if an answer about a segment breaks a guarantee.
+/// Panics with the input if an answer to a segment breaks a guarantee.
 #[track_caller]
 pub fn assert_guarantees<T: Real>(frustum: &Frustum, segment: &Segment<T>) {
     let found = guarantees(frustum, segment);

@@ -1,22 +1,22 @@
-//! Everyday segments: what the clippers take where next to nothing is singular.
+//! Everyday segments: the clippers' run times where hardly anything is singular.
 //!
 //! # What is measured
 //! On each [`Mix`], in the view's frame and in the world of a turned camera, in `f64`:
 //! Liang-Barsky, textbook and tuned, and V/W in plain arithmetic, exact V/W with
 //! [`Accuracy::Fast`]; one segment a call, and all but the first over slices, into a
 //! buffer that is used again. All are called through `dyn SegmentClipper` and take
-//! [turns](super::turns). Of [`FEW`] segments and more, clipped over and over, no
-//! branch predictor learns the order; fewer flatter clippers that branch.
+//! [turns](super::turns). Branch predictors do not learn the order of [`FEW`] segments or more,
+//! clipped over and over; fewer flatter clippers that branch.
 //!
 //! # Answers
 //! All are compared before anything is timed. Those of the exact tier must be those
 //! of another exact algorithm, one segment a call, to the bit, and the first of each
-//! mix must hold against rational arithmetic; plain ones must have the same class,
+//! mix must agree with rational arithmetic; plain ones must have the same class,
 //! sets and clipped flags.
 
 use super::paper::Tier;
 use super::paper_answers::Topology;
-use super::turns::{Timing, Turns, geometric_mean};
+use super::turns::{Spread, Timing, Turns};
 use frusta::clip::{
     Accuracy, LiangBarsky, LiangBarskyVariant, SegmentClip, SegmentClipper, VwProjection,
 };
@@ -27,22 +27,22 @@ use frusta::samples::Mix;
 use std::hint::black_box;
 use std::time::Instant;
 
-/// Branch predictors learn fewer segments than these.
+/// Branch predictors learn the order of fewer segments.
 const FEW: usize = 65_536;
 
-/// So many of the exact answers to each mix are held against the oracle, which takes
+/// How many of the exact answers to each mix are compared with the oracle, which takes
 /// a thousand times as long as clipping.
 const JUDGED: usize = 256;
 
-/// What was found on everyday segments.
+/// The findings on everyday segments.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Everyday {
     /// How many segments there were of each mix.
     pub segments: usize,
-    /// In how many rounds, in which the clippers took turns.
+    /// The number of timed rounds.
     pub rounds: u32,
-    /// Place by place and mix by mix, a row a clipper and way of calling it, in the same
-    /// order everywhere: first the one that all are compared with.
+    /// Place by place and mix by mix, a row for each clipper and way of calling it, always in the
+    /// same order; the first is the reference.
     pub rows: Vec<EverydayRow>,
 }
 
@@ -51,7 +51,7 @@ pub struct Everyday {
 pub struct EverydayRow {
     /// The segments.
     pub mix: Mix,
-    /// Where, as [`Mix::poses`] names it.
+    /// The pose's name: [`Mix::poses`].
     pub place: &'static str,
     /// The clipper's name.
     pub algorithm: &'static str,
@@ -62,13 +62,13 @@ pub struct EverydayRow {
     /// The time; the ratio is to textbook Liang-Barsky in plain arithmetic, one
     /// segment a call.
     pub timing: Timing,
-    /// How many answers are wrong. Of the exact tier, one that is not the same to the
-    /// bit as another algorithm's is.
+    /// The number of wrong answers. In the exact tier, an answer that differs from another
+    /// algorithm's in any bit is wrong.
     pub wrong: usize,
 }
 
 impl Everyday {
-    /// Segments clipped with one call, over slices.
+    /// Segments in one call, over slices.
     pub const SLICE: usize = 1024;
 
     /// Whether every answer of the exact tier is right.
@@ -90,15 +90,11 @@ impl Everyday {
 
     /// How many times as fast as textbook Liang-Barsky in plain arithmetic, one segment
     /// a call, a clipper is: the geometric mean over mixes and places.
-    pub fn speed(&self, algorithm: &str, tier: Tier, slices: bool) -> Option<f64> {
+    pub fn speed(&self, algorithm: &str, tier: Tier, slices: bool) -> Option<Spread> {
         let is_it =
             |row: &&EverydayRow| (row.algorithm, row.tier, row.slices) == (algorithm, tier, slices);
-        geometric_mean(
-            self.rows
-                .iter()
-                .filter(is_it)
-                .filter_map(EverydayRow::speed),
-        )
+        let rows = self.rows.iter().filter(is_it);
+        Spread::geometric_mean(rows.filter_map(EverydayRow::speed))
     }
 
     /// Whether there were so few segments that branch predictors learnt them, which
@@ -110,20 +106,20 @@ impl Everyday {
 
 impl EverydayRow {
     /// How many times as fast as textbook Liang-Barsky; `None` if nothing was timed.
-    pub fn speed(&self) -> Option<f64> {
-        (self.timing.ratio > 0.0).then(|| 1.0 / self.timing.ratio)
+    pub fn speed(&self) -> Option<Spread> {
+        self.timing.speed()
     }
 }
 
-/// Compares and times the clippers on so many segments of each mix; `on_round` hears
-/// after each of [`everyday_rounds`].
+/// Compares and times the clippers on this many segments of each mix; `on_round` is called after
+/// each of [`everyday_rounds`].
 ///
 /// ```
-/// use frusta::report::{Tier, everyday, everyday_rounds};
+/// use frusta_lab::{Tier, everyday, everyday_rounds};
 /// let mut rounds = 0;
 /// let found = everyday(2_000, 1, || rounds += 1);
 /// assert!(found.exact_is_right() && found.flatters_branches());
-/// assert!(found.speed("vw", Tier::Exact, true) > Some(0.0));
+/// assert!(found.speed("vw", Tier::Exact, true).unwrap().median > 0.0);
 /// assert_eq!(rounds, everyday_rounds(1));
 /// ```
 pub fn everyday(segments: usize, rounds: u32, mut on_round: impl FnMut()) -> Everyday {
@@ -157,9 +153,9 @@ pub fn everyday(segments: usize, rounds: u32, mut on_round: impl FnMut()) -> Eve
     }
 }
 
-/// How many rounds [`everyday`] goes through, of so many on each mix.
+/// How many rounds [`everyday`] goes through, warm-up included, if this many count on each mix.
 pub fn everyday_rounds(rounds: u32) -> u64 {
-    (Mix::poses().len() * Mix::ALL.len()) as u64 * u64::from(rounds)
+    (Mix::poses().len() * Mix::ALL.len() * Turns::rounds(rounds as usize)) as u64
 }
 
 /// A clipper, and how it is called.
@@ -178,7 +174,7 @@ impl Entrant {
         }
     }
 
-    /// Who takes part; the first is what all are compared with.
+    /// All clippers; the first is the reference.
     fn all() -> Vec<Self> {
         use LiangBarskyVariant::{Textbook, Tuned};
         let textbook = Self::new(Tier::Plain, false, LiangBarsky::plain(Textbook));
@@ -195,11 +191,11 @@ impl Entrant {
             .collect()
     }
 
-    /// One clip a segment of a slice, in the way that it is called; none for a refusal.
+    /// One clip for each segment of a slice, in this way of calling; refused segments have none.
     #[inline(never)]
     fn clip(&self, frustum: &Frustum, slice: &[Segment<f64>], clips: &mut Vec<SegmentClip<f64>>) {
         if self.slices {
-            // It leaves none if it refuses.
+            // A refusal leaves no clips.
             let _ = self.clipper.clip_segments(frustum, slice, clips);
         } else {
             clips.clear();
@@ -209,7 +205,7 @@ impl Entrant {
     }
 }
 
-/// Segments, their frustum, and the exact answers of who is not timed.
+/// Segments, their frustum, and the answers of an exact clipper that is not timed.
 struct Place<'a> {
     frustum: &'a Frustum,
     segments: Vec<Segment<f64>>,
@@ -236,15 +232,15 @@ impl<'a> Place<'a> {
             .segments
             .chunks(Everyday::SLICE)
             .zip(self.answers.chunks(Everyday::SLICE));
-        for (number, (slice, answers)) in slices.enumerate() {
+        for (index, (slice, answers)) in slices.enumerate() {
             entrant.clip(self.frustum, slice, &mut clips);
             wrong += slice.len() - clips.len();
             for (i, (clip, answer)) in clips.iter().zip(answers).enumerate() {
-                let judged = number * Everyday::SLICE + i < JUDGED;
+                let judged = index * Everyday::SLICE + i < JUDGED;
                 let right = match entrant.tier {
                     Tier::Plain => Topology::of_answer(clip) == Topology::of_answer(answer),
                     Tier::Exact => {
-                        is_same(clip, answer) && (!judged || self.holds(&slice[i], clip))
+                        is_same(clip, answer) && (!judged || self.is_true(&slice[i], clip))
                     }
                 };
                 wrong += usize::from(!right);
@@ -253,20 +249,18 @@ impl<'a> Place<'a> {
         wrong
     }
 
-    /// Against rational arithmetic.
-    fn holds(&self, segment: &Segment<f64>, clip: &SegmentClip<f64>) -> bool {
+    /// Whether rational arithmetic confirms the answer.
+    fn is_true(&self, segment: &Segment<f64>, clip: &SegmentClip<f64>) -> bool {
         let violations = check(self.frustum, segment, Accuracy::Fast, clip);
         violations.is_ok_and(|violations| violations.is_empty())
     }
 
     fn times(&self, entrants: &[Entrant], rounds: u32, on_round: &mut dyn FnMut()) -> Vec<Timing> {
-        let mut turns = Turns::new(entrants.len(), 0);
+        let mut turns = Turns::new(entrants.len());
         let mut clips = Vec::with_capacity(Everyday::SLICE);
-        for _ in 0..rounds {
-            turns.round(|i| self.pass(&entrants[i], &mut clips));
-            on_round();
-        }
-        turns.medians()
+        let time = |i: usize| self.pass(&entrants[i], &mut clips);
+        turns.take(rounds as usize, time, on_round);
+        turns.timings(0)
     }
 
     /// Nanoseconds a segment, of one pass.
@@ -362,7 +356,7 @@ mod tests {
     }
 
     #[test]
-    fn the_oracle_judges_whom_the_others_agree_with() {
+    fn the_oracle_judges_answers_that_all_agree_on() {
         let [(_, pose), _] = Mix::poses();
         let frustum = Frustum::new(pose, Mix::shape()).unwrap();
         let mut place = Place::new(&frustum, Mix::MostlyIn.segments(JUDGED + 200, &pose));
@@ -401,13 +395,14 @@ mod tests {
         let mut found = everyday(10, 0, || ());
         for (i, row) in found.rows.iter_mut().enumerate() {
             let is_it = row.algorithm == "vw" && row.tier == Tier::Exact && row.slices;
-            row.timing.ratio = match (is_it, i % 2) {
+            row.timing.ratio = Spread::new(vec![match (is_it, i % 2) {
                 (true, 0) => 0.25,
                 (true, _) => 1.0,
                 _ => 3.0,
-            };
+            }]);
         }
-        assert_eq!(found.speed("vw", Tier::Exact, true), Some(2.0));
+        let speed = found.speed("vw", Tier::Exact, true).map(|s| s.median);
+        assert_eq!(speed, Some(2.0));
         assert!(found.flatters_branches());
         found.segments = FEW;
         assert!(!found.flatters_branches());

@@ -1,17 +1,17 @@
 //! Everyday segments as text, in lines of at most 100 columns.
 
 use super::everyday::{Everyday, EverydayRow};
+use super::figures::{self, fit};
 use super::paper::Tier;
-use super::paper_table::fit;
+use super::turns::Spread;
 use std::fmt;
 
 const LEGEND: &str = "
 L-B ns      nanoseconds a segment of textbook Liang-Barsky, plain, one segment a call
-all others  how many times as fast as that; tuned: Liang-Barsky
+all others  how many times as fast as that, with the spread over the rounds; tuned: Liang-Barsky
 ";
 
-const FEW: &str =
-    "So few segments are learnt by branch predictors: their times flatter branches.\n";
+const FEW: &str = "Branch predictors learn so few segments: the times flatter branches.\n";
 
 impl fmt::Display for Everyday {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -39,15 +39,15 @@ impl fmt::Display for Everyday {
 
 fn heading(f: &mut fmt::Formatter<'_>, clippers: &[EverydayRow]) -> fmt::Result {
     let slices = format!("slices of {}", Everyday::SLICE);
-    write!(f, "\n{:30} {:^26}      {slices}", "", "one segment a call")?;
+    write!(f, "\n{:30} {:^32}      {slices}", "", "one segment a call")?;
     write!(f, "\n{:21} {:>8}", "", "L-B ns")?;
     for row in clippers {
         let name = row.algorithm.trim_start_matches("liang-barsky-");
-        write!(f, " {name:>8}")?;
+        write!(f, " {name:>10}")?;
     }
     write!(f, "\n{:30}", "")?;
     for row in clippers {
-        write!(f, " {:>8}", row.tier.name())?;
+        write!(f, " {:>10}", row.tier.name())?;
     }
     writeln!(f)
 }
@@ -66,9 +66,8 @@ fn line(f: &mut fmt::Formatter<'_>, rows: &[EverydayRow]) -> fmt::Result {
     writeln!(f)
 }
 
-fn cell(f: &mut fmt::Formatter<'_>, speed: Option<f64>) -> fmt::Result {
-    let text = speed.map_or_else(|| "-".to_owned(), |speed| fit(speed, 2, 8));
-    write!(f, " {text:>8}")
+fn cell(f: &mut fmt::Formatter<'_>, speed: Option<Spread>) -> fmt::Result {
+    write!(f, " {:>10}", figures::ratio(speed.unwrap_or_default()))
 }
 
 #[cfg(test)]

@@ -1,4 +1,4 @@
-//! The paper's table, made again.
+//! The paper's table, reproduced.
 //!
 //! # Source
 //! "View Frustum Culling Geometric Algorithm" (视锥体裁剪几何算法研究, in Chinese)
@@ -15,9 +15,9 @@
 //! - *Answers*: class and face sets against rational arithmetic, in the standard
 //!   frame, under the 48 signed permutations of the axes, and in
 //!   [`rotated_poses`]. All these samples are exact in both scalar types.
-//!   As the 78 are made, their crossing parameters are exact, too, so that next to
-//!   nothing is rounded, and nobody errs. So they are stretched as well, by all of
-//!   a list of factors, none chosen for what it does.
+//!   The crossing parameters of the 78 are exact, too, so that hardly anything is rounded and
+//!   no clipper errs. So they are also stretched, by all factors of a list, none of which was
+//!   chosen for its effect.
 //! - *Error*: the largest distance of a point from the exact one, over the answers
 //!   with the right class. A wrong class is counted, never averaged.
 
@@ -37,14 +37,14 @@ pub(super) const SOLID: Solid = Solid::SYMMETRIC;
 /// The paper's run times; their unit is not given.
 const PAPER_TIMES: [(&str, f64); 3] = [(REFERENCE, 4243.0), ("six-planes", 4228.0), ("vw", 4212.0)];
 
-/// What the others are compared with.
+/// The reference of all ratios.
 const REFERENCE: &str = "liang-barsky-textbook";
 
 /// By how many roundoffs of the segment's largest coordinate `Accuracy::Fast` may
 /// be off.
 const FAST_BOUND: f64 = 8.0;
 
-/// Which arithmetic a row is about.
+/// The arithmetic of a row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Tier {
     /// The textbook's algorithm in floating point.
@@ -68,9 +68,9 @@ impl Tier {
 pub struct PaperTable {
     /// How often each sample was clipped by each clipper for each time.
     pub repeats: u32,
-    /// In how many rounds, in which the clippers took turns.
+    /// The number of timed rounds.
     pub rounds: u32,
-    /// A row a clipper, tier and scalar type.
+    /// A row for each clipper, tier and scalar type.
     pub rows: Vec<PaperRow>,
 }
 
@@ -93,8 +93,8 @@ pub struct PaperRow {
     pub steady: bool,
     /// The answers to the 78 samples in the standard frame.
     pub standard: Score,
-    /// The answers to stretched samples there: what juts out of the frustum is
-    /// made longer by each of 63 pairs of factors.
+    /// The answers to stretched samples there: the parts outside of the frustum are
+    /// lengthened by each of 63 pairs of factors.
     pub stretched: Score,
     /// Samples as they are, and stretched by a pair of factors, under the 48
     /// signed permutations of the axes.
@@ -143,14 +143,14 @@ impl PaperTable {
     }
 }
 
-/// Measures all clippers, `repeats` times; `on_round` hears after each of
+/// Measures all clippers, `repeats` times; `on_round` is called after each of
 /// [`paper_rounds`].
 ///
 /// ```
 /// let mut rounds = 0;
-/// let table = frusta::report::paper_table(20, || rounds += 1);
+/// let table = frusta_lab::paper_table(20, || rounds += 1);
 /// assert!(table.exact_is_right());
-/// assert_eq!(rounds, frusta::report::paper_rounds(20));
+/// assert_eq!(rounds, frusta_lab::paper_rounds(20));
 /// ```
 pub fn paper_table(repeats: u32, mut on_round: impl FnMut()) -> PaperTable {
     let mut rows = rows::<f64>("f64", repeats, &mut on_round);
@@ -162,13 +162,13 @@ pub fn paper_table(repeats: u32, mut on_round: impl FnMut()) -> PaperTable {
     }
 }
 
-/// How many rounds [`paper_table`] goes through.
+/// The number of rounds that [`paper_table`] goes through.
 pub fn paper_rounds(repeats: u32) -> u64 {
     2 * u64::from(paper_timing::rounds(repeats))
 }
 
-/// Poses turned by quaternions of small integers and moved by small integers, so
-/// that the samples there are exact: no axis along a coordinate.
+/// Poses turned by quaternions of small integers and moved by small integers, oblique to the
+/// coordinate axes. The samples are exact there.
 pub fn rotated_poses() -> Vec<Placement> {
     let entries = [-2_i8, -1, 1, 2];
     let mut poses = Vec::new();
@@ -236,7 +236,7 @@ fn paper_ratio(algorithm: &str) -> Option<f64> {
 /// A clipper behind the trait, as all of them are called.
 pub(super) type Clipper<T> = (Tier, Box<dyn SegmentClipper<T>>);
 
-/// The number of textbook Liang-Barsky in plain arithmetic.
+/// The index of textbook Liang-Barsky in plain arithmetic.
 fn reference<T: Real>(clippers: &[Clipper<T>]) -> usize {
     let is = |(tier, c): &Clipper<T>| *tier == Tier::Plain && c.name() == REFERENCE;
     clippers.iter().position(is).unwrap_or(0)

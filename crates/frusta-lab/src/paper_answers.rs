@@ -1,4 +1,4 @@
-//! Clippers' answers to the singular samples, held against rational arithmetic.
+//! Clippers' answers to the singular samples, compared with rational arithmetic.
 
 use super::paper::SOLID;
 use frusta::clip::{Class, PartEnd, SegmentClip, SegmentClipper};
@@ -8,7 +8,7 @@ use frusta::oracle::{Gauge, Oracle, OracleClip, OracleEnd};
 use frusta::samples::{FrameSample, Placement, singular_samples};
 use std::fmt;
 
-/// What a clipper's answers are worth.
+/// How right a clipper's answers are.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Score {
     /// How many samples there were.
@@ -43,9 +43,9 @@ pub struct PaperFailure {
     pub count: usize,
     /// The first such segment.
     pub segment: Segment<f64>,
-    /// What the clipper said about it.
+    /// The clipper's answer.
     pub said: Topology,
-    /// What is true.
+    /// The true answer.
     pub truth: Topology,
 }
 

@@ -1,14 +1,15 @@
 //! The paper's table as text, in lines of at most 100 columns.
 
+use super::figures::{fit, ratio};
 use super::paper::{PaperRow, PaperTable};
 use super::paper_answers::{PaperFailure, Score};
 use std::fmt;
 
-/// How many failing samples are told of a clipper other than [`TOLD_IN_FULL`].
+/// How many failing samples are listed for a clipper other than [`LISTED_IN_FULL`].
 const FIRST: usize = 3;
 
 /// The clipper that the paper says errs.
-const TOLD_IN_FULL: &str = "six-planes";
+const LISTED_IN_FULL: &str = "six-planes";
 
 impl fmt::Display for PaperTable {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -36,8 +37,9 @@ impl fmt::Display for PaperTable {
 }
 
 const LEGEND: &str = "
-paper     its run times, 4243 : 4228 : 4212, as ratios to Liang-Barsky's
-order     median ratio to textbook Liang-Barsky, plain, same type; the samples in order, as there
+paper     its run times, 4243 : 4228 : 4212, as multiples of Liang-Barsky's
+in order  time as a multiple of plain textbook Liang-Barsky's in the same type, with its spread;
+          the samples in order, as in the paper
 shuffled  the same in an order that never repeats, which branch predictors cannot learn
 ns        nanoseconds a segment, shuffled
 wrong     classes/sets (entry, exit, coplanar, clipped flags), by rational arithmetic. Stretched:
@@ -49,20 +51,20 @@ error     the largest of all answers of the right class: in roundoffs of the seg
 
 fn heading(f: &mut fmt::Formatter<'_>, row: &PaperRow) -> fmt::Result {
     let right = format!("right of {}", row.standard.samples);
-    writeln!(
-        f,
-        "\n{:21} {:^27} {right:>11} {:^28} {:>9}",
-        "", "run time", "wrong", "error"
-    )?;
     let [stretched, turned, rotated] =
         [&row.stretched, &row.turned, &row.rotated].map(|s| format!("of {}", s.samples));
-    writeln!(f, "{:59}{stretched:>10}{turned:>9}{rotated:>10}", "")?;
     writeln!(
         f,
-        "{:21} {:>5} {:>6} {:>8} {:>5} {:>5} {:>4}{:>10}{:>9}{:>10} {:>5} {:>4}",
+        "\n{:21} {:^29} {right:>10} {:^26}",
+        "", "run time", "wrong"
+    )?;
+    writeln!(f, "{:62}{stretched:>9}{turned:>9}{rotated:>9}", "")?;
+    writeln!(
+        f,
+        "{:21} {:>5} {:>8} {:>8} {:>5} {:>5} {:>4}{:>9}{:>9}{:>9} {:>5} {:>4}",
         "",
         "paper",
-        "order",
+        "in order",
         "shuffled",
         "ns",
         "class",
@@ -79,12 +81,11 @@ fn line(f: &mut fmt::Formatter<'_>, row: &PaperRow) -> fmt::Result {
     let paper = row.paper.map_or("-".into(), |r| format!("{r:.3}"));
     let wrong = |s: &Score| format!("{}/{}", s.wrong()[0], s.wrong()[1]);
     let [error, ulps] = row.max_error().map(|e| fit(e, 2, 4));
-    let ratios = [row.in_order, row.shuffled].map(|timing| fit(timing.ratio, 3, 6));
-    let [order, shuffled] = ratios;
+    let [order, shuffled] = [row.in_order, row.shuffled].map(|timing| ratio(timing.ratio));
     let nanoseconds = fit(row.shuffled.nanoseconds, 1, 5);
     writeln!(
         f,
-        "{:<21} {paper:>5} {order:>6} {shuffled:>8} {nanoseconds:>5} {:>5} {:>4}{:>10}{:>9}{:>10} {error:>5} {ulps:>4}",
+        "{:<21} {paper:>5} {order:>8} {shuffled:>8} {nanoseconds:>5} {:>5} {:>4}{:>9}{:>9}{:>9} {error:>5} {ulps:>4}",
         row.algorithm,
         row.standard.right_classes,
         row.standard.right_sets,
@@ -97,14 +98,6 @@ fn line(f: &mut fmt::Formatter<'_>, row: &PaperRow) -> fmt::Result {
     } else {
         writeln!(f, "{:21} answers differed between passes", "")
     }
-}
-
-/// A number in so many columns, with as many of the decimals as fit.
-pub(super) fn fit(value: f64, decimals: usize, columns: usize) -> String {
-    let decimals = (0..=decimals).rev();
-    let texts = decimals.map(|digits| format!("{value:.digits$}"));
-    let fitting = texts.into_iter().find(|text| text.len() <= columns);
-    fitting.unwrap_or_else(|| format!("{value:.0e}"))
 }
 
 /// Which samples were answered wrongly, and how the first time.
@@ -122,12 +115,12 @@ fn failures(f: &mut fmt::Formatter<'_>, row: &PaperRow) -> fmt::Result {
          and the first",
         row.algorithm
     )?;
-    let told = if row.algorithm == TOLD_IN_FULL {
+    let listed = if row.algorithm == LISTED_IN_FULL {
         samples
     } else {
         FIRST.min(samples)
     };
-    for failure in &row.failures[..told] {
+    for failure in &row.failures[..listed] {
         let PaperFailure {
             sample,
             count,
@@ -135,32 +128,11 @@ fn failures(f: &mut fmt::Formatter<'_>, row: &PaperRow) -> fmt::Result {
             truth,
             ..
         } = failure;
-        writeln!(f, "{count:>5} {sample:<33} said {said}")?;
+        writeln!(f, "{count:>5} {sample:<33} gave {said}")?;
         writeln!(f, "{:39} true {truth}", "")?;
     }
-    if told < samples {
-        writeln!(f, "      and on {} more samples", samples - told)?;
+    if listed < samples {
+        writeln!(f, "      and on {} more samples", samples - listed)?;
     }
     Ok(())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn numbers_keep_to_their_columns() {
-        for (value, text) in [
-            (0.0, "0.00"),
-            (9.994, "9.99"),
-            (9.996, "10.0"),
-            (128.0, "128"),
-            (9999.4, "9999"),
-            (123_456.0, "1e5"),
-        ] {
-            assert_eq!(fit(value, 2, 4), text);
-        }
-        assert_eq!(fit(10_515.5, 1, 5), "10516");
-        assert_eq!(fit(158.858, 3, 6), "158.86");
-    }
 }

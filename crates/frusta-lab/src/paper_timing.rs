@@ -2,8 +2,8 @@
 //!
 //! The repeats are split into rounds, in which the clippers take [turns](super::turns).
 //! All clippers are called the same way, through `dyn SegmentClipper`: whether the
-//! compiler would inline one into this loop says nothing about it. Of every
-//! answer something is summed, and the sums must be what they were before.
+//! compiler would inline one into this loop says nothing about it. A digest of every
+//! answer is summed, and the sums must not change from pass to pass.
 //!
 //! The paper's procedure, the same samples in the same order over and over, lets
 //! a processor's branch predictor learn them by heart, which flatters branches.
@@ -22,19 +22,19 @@ use std::time::Instant;
 /// short against the drift.
 const PASSES: u32 = 100;
 
-/// What was measured of one clipper.
+/// The measurements of one clipper.
 pub(super) struct Measured {
     pub(super) in_order: Timing,
     pub(super) shuffled: Timing,
     pub(super) steady: bool,
 }
 
-/// How many rounds so many repeats make.
+/// The number of rounds for this many repeats.
 pub(super) fn rounds(repeats: u32) -> u32 {
     repeats.div_ceil(PASSES)
 }
 
-/// Measures clippers; ratios are to the one of number `reference`.
+/// Measures clippers; ratios are to the one with the index `reference`.
 pub(super) fn measure<T: Real>(
     clippers: &[Clipper<T>],
     reference: usize,
@@ -58,7 +58,7 @@ pub(super) fn measure<T: Real>(
         .map(|(_, c)| pass(c.as_ref(), &frustum, &samples, 1).1)
         .collect();
     let mut steady = vec![true; clippers.len()];
-    let mut turns = [(); 2].map(|()| Turns::new(clippers.len(), reference));
+    let mut turns = [(); 2].map(|()| Turns::new(clippers.len()));
     let mut random = Random::new(&[u64::from(repeats)]);
     for round in 0..rounds(repeats) {
         let passes = PASSES.min(repeats - round * PASSES);
@@ -76,7 +76,7 @@ pub(super) fn measure<T: Real>(
         }
         on_round();
     }
-    let [in_order, shuffled] = turns.map(Turns::medians);
+    let [in_order, shuffled] = turns.map(|turns| turns.timings(reference));
     in_order
         .into_iter()
         .zip(shuffled)
@@ -113,7 +113,7 @@ fn pass<T: Real>(
     (time / count, sum)
 }
 
-/// A little of an answer.
+/// A digest of an answer.
 #[inline(always)]
 fn digest<T: Real>(clip: &SegmentClip<T>) -> u64 {
     let faces = clip
@@ -179,7 +179,7 @@ mod tests {
         let measured = measure(&clippers, 0, 250, &mut || heard += 1);
         assert_eq!((heard, rounds(250)), (3, 3));
         assert!(measured[0].steady && !measured[1].steady);
-        assert_eq!(measured[0].in_order.ratio, 1.0);
+        assert_eq!(measured[0].in_order.ratio.median, 1.0);
         assert!(measured[1].shuffled.nanoseconds > 0.0);
     }
 }

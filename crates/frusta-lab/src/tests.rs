@@ -112,8 +112,8 @@ fn a_right_clipper_is_clean_in_every_family() {
         seen += 1;
     });
     assert_eq!(rows.len(), seen);
-    let singles = Family::ALL.iter().filter(|f| f.has_f32()).count();
-    assert_eq!(rows.len(), Family::ALL.len() + singles);
+    let with_f32 = Family::ALL.iter().filter(|f| f.has_f32()).count();
+    assert_eq!(rows.len(), Family::ALL.len() + with_f32);
     let total = total(&rows);
     assert_eq!(total.integers, total.cases);
     assert!(total.inward_ends > 1_000 && total.room_ends > 100);
@@ -150,7 +150,7 @@ fn a_bias_breaks_symmetry_and_rounding() {
 fn forgotten_sets_and_panics_are_findings() {
     let options = Options {
         families: vec![Family::Bumps, Family::Points],
-        singles: false,
+        with_f32: false,
         ..options(4 * BLOCK)
     };
     let rows = verify(&Spoilt(Forgets), &options, |_| {});

@@ -1,11 +1,11 @@
-//! Every family's cases through an exact clipper, held against the oracle.
+//! Every family's cases through an exact clipper, compared with the oracle.
 //!
 //! For each case and each [`Accuracy`]: the answer is checked against rational
 //! arithmetic (G1 to G4), against the answer for the swapped ends (G5) and, if
-//! inward, against the clip of itself (G6). Nothing is sampled but the G7 figure.
+//! inward, against the clip of itself (G6). Only the G7 distance is sampled.
 //! Blocks of cases that share a frustum are dealt to the threads; counts do not
 //! depend on the number of threads, and the witness kept is the first by index.
-//! A clipper that refuses a valid case or panics is a finding, not an abort.
+//! A clipper that refuses a valid case or panics is a finding and does not end the run.
 
 use super::CaseLine;
 use frusta::clip::{Accuracy, SegmentClip, StageCounts};
@@ -22,8 +22,8 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 /// A clipper that claims to be exact.
 pub trait Subject: Sync {
-    /// Clips in `f64`, and adds to `counts` what its predicates needed, if it
-    /// knows.
+    /// Clips in `f64`, and adds the stages that its predicates needed to `counts`, if it
+    /// counts them.
     ///
     /// # Errors
     /// A coordinate of the segment is infinite or NaN.
@@ -81,12 +81,12 @@ pub struct Options {
     pub families: Vec<Family>,
     /// How many cases of each, in each scalar type.
     pub cases: u64,
-    /// Which cases.
+    /// The seed of all cases.
     pub seed: u64,
     /// How many threads; 0 counts as 1.
     pub threads: usize,
     /// Whether to verify `f32` as well, where a family has it.
-    pub singles: bool,
+    pub with_f32: bool,
 }
 
 impl Default for Options {
@@ -97,20 +97,20 @@ impl Default for Options {
             cases: 1_000,
             seed: 1,
             threads: 1,
-            singles: true,
+            with_f32: true,
         }
     }
 }
 
 impl Options {
-    /// How many cases these are, in all families and scalar types.
+    /// The number of cases in all families and scalar types.
     pub fn total(&self) -> u64 {
-        let types = |f: &Family| 1 + u64::from(self.singles && f.has_f32());
+        let types = |f: &Family| 1 + u64::from(self.with_f32 && f.has_f32());
         self.cases * self.families.iter().map(types).sum::<u64>()
     }
 }
 
-/// What was found in one family in one scalar type.
+/// The findings in one family in one scalar type.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FamilyRow {
     /// The family.
@@ -136,9 +136,9 @@ pub struct FamilyRow {
     pub not_inward: u64,
     /// G7: by how many ulps an inward end could still move outwards, at most.
     pub room_max: f64,
-    /// The sum of these numbers over the ends looked at.
+    /// The sum of these distances over the measured ends.
     pub room_sum: f64,
-    /// How many ends were looked at for G7: those of every eighth case.
+    /// How many ends were measured for G7: those of every eighth case.
     pub room_ends: u64,
     /// The first case with a violation.
     pub witness: Option<Witness>,
@@ -155,7 +155,7 @@ impl FamilyRow {
         self.violations.iter().all(|&n| n == 0)
     }
 
-    /// The mean of the G7 figure; 0 if no end was looked at.
+    /// The mean of the G7 distance; 0 if no end was measured.
     pub fn room_mean(&self) -> f64 {
         self.room_sum / self.room_ends.max(1) as f64
     }
@@ -203,14 +203,14 @@ impl FamilyRow {
     }
 }
 
-/// A case with a violation: enough to make it again, alone.
+/// A case with a violation, in a form that can be replayed alone.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Witness {
-    /// The case's number in its family.
+    /// The case's index in its family.
     pub index: u64,
-    /// With which accuracy.
+    /// The accuracy.
     pub accuracy: Accuracy,
-    /// What was wrong.
+    /// The violation.
     pub violation: Violation,
     /// Frustum and segment: a [`CaseLine`].
     pub input: String,
@@ -223,10 +223,10 @@ impl fmt::Display for Witness {
     }
 }
 
-/// Runs families through a clipper; `on_row` sees each row when it is done.
+/// Runs families through a clipper; `on_row` is called with each finished row.
 ///
 /// ```
-/// use frusta::report::{ExactClipper, Options, verify};
+/// use frusta_lab::{ExactClipper, Options, verify};
 /// use frusta::samples::Family;
 /// let options = Options { families: vec![Family::Bumps], cases: 64, ..Options::default() };
 /// let rows = verify(&ExactClipper, &options, |row| assert!(row.is_clean()));
@@ -240,8 +240,8 @@ pub fn verify(
     verify_watched(subject, options, &|_| {}, on_row)
 }
 
-/// As [`verify`]; `on_cases` hears from every thread how many more cases are
-/// done, up to [`BLOCK`] at a time. [`Options::total`] says how many there are.
+/// As [`verify`]; `on_cases` is called, from every thread, with the number of cases that were done
+/// since its last call, at most [`BLOCK`]; in all [`Options::total`].
 pub fn verify_watched(
     subject: &dyn Subject,
     options: &Options,
@@ -255,7 +255,7 @@ pub fn verify_watched(
             rows.push(row);
         };
         add(verify_family::<f64>(subject, options, family, on_cases));
-        if options.singles && family.has_f32() {
+        if options.with_f32 && family.has_f32() {
             add(verify_family::<f32>(subject, options, family, on_cases));
         }
     }
@@ -343,7 +343,7 @@ struct Run<'a, T> {
     scalar: std::marker::PhantomData<T>,
 }
 
-/// What is wrong with a case: with which accuracy, and what.
+/// Violations of a case, each with its accuracy.
 type Findings = Vec<(Accuracy, Violation)>;
 
 impl<'a, T: Scalar> Run<'a, T> {

@@ -8,7 +8,7 @@ use std::fmt;
 #[derive(Clone, Copy, Debug)]
 pub struct VerifyTable<'a>(pub &'a [FamilyRow]);
 
-/// The table's columns of violations, and what each sums up.
+/// The table's columns of violations, and the kinds that each sums up.
 const COLUMNS: [(&str, &[Kind]); 7] = [
     ("class", &[Kind::Class]),
     ("sets", &[Kind::Set]),
@@ -24,7 +24,7 @@ const COLUMNS: [(&str, &[Kind]); 7] = [
 
 const WIDTH: usize = 120;
 
-/// How wide a column of violations is.
+/// The width of a column of violations.
 const fn width(name: &str) -> usize {
     if name.len() > 5 { name.len() } else { 5 }
 }
@@ -44,7 +44,7 @@ impl VerifyTable<'_> {
         line + &format!(" {max:>6} {mean:>5}")
     }
 
-    /// What follows the families' lines: their sum, and the first witnesses.
+    /// The lines after the families': their sum, and the first witnesses.
     pub fn summary(&self) -> String {
         Summary(self.0).to_string()
     }

@@ -1,10 +1,10 @@
-//! The culler's answers about every family's hard volumes, compared with the oracle.
+//! Every family's hard volumes through the culler, compared with the oracle.
 //!
 //! Boxes in `f64` and `f32`, oriented boxes and spheres, at least half of them within 4 ulp of
-//! touching the frustum. Each is classified alone, boxes and spheres also many at once: both
-//! answers must be the oracle's, plane by plane, and the exact answer must be that of its
-//! separating axes and distances. Blocks that share a frustum are dealt to the threads; tallies do
-//! not depend on the number of threads.
+//! touching the frustum. Each is classified alone, boxes and spheres also in a batch: both must
+//! agree with integer arithmetic, plane by plane; the exact answer must agree with separating axes
+//! and distances in integers. Blocks that share a frustum are dealt to the threads; counts do not
+//! depend on the number of threads.
 
 use frusta::cull::{Aabb, Containment, Culler, Sphere, Volume, VolumeCounts};
 use frusta::math::Real;
@@ -15,7 +15,7 @@ use std::ops::AddAssign;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// Which volumes.
+/// A kind of volume.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum VolumeKind {
     /// Axis-aligned boxes in `f64`.
@@ -31,7 +31,7 @@ pub enum VolumeKind {
 }
 
 impl VolumeKind {
-    /// All of them.
+    /// All kinds.
     pub const ALL: [VolumeKind; 5] = [
         VolumeKind::Box,
         VolumeKind::BoxF32,
@@ -40,9 +40,15 @@ impl VolumeKind {
         VolumeKind::SphereF32,
     ];
 
-    /// As it is printed.
+    /// The name in tables.
     pub const fn name(self) -> &'static str {
         ["box", "box-f32", "obb", "sphere", "sphere-f32"][self as usize]
+    }
+
+    /// The kinds that a family has: those in `f32` only where it has `f32`.
+    pub fn of_family(family: Family) -> impl Iterator<Item = VolumeKind> + Clone {
+        let has = move |kind: &VolumeKind| family.has_f32() || !kind.is_single();
+        Self::ALL.into_iter().filter(has)
     }
 
     const fn is_single(self) -> bool {
@@ -50,22 +56,22 @@ impl VolumeKind {
     }
 }
 
-/// The results on one kind, in one family or in all.
+/// The findings on one kind, in one family or in all.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct VolumeTally {
     /// Number of volumes.
     pub cases: u64,
-    /// Number of volumes that are outside, crossing and inside, plane by plane.
+    /// How many of these are outside, crossing and inside, plane by plane.
     pub classes: [u64; 3],
-    /// Number of volumes whose class differs from the oracle's, alone.
+    /// Classes, of one volume alone, that differ from integer arithmetic's.
     pub wrong: u64,
-    /// Number of these that are classified as outside.
+    /// Those among them that are wrongly outside.
     pub wrongly_outside: u64,
-    /// Number of volumes whose class differs from the oracle's, many at once.
+    /// Classes in a batch that differ from integer arithmetic's.
     pub wrong_in_batch: u64,
-    /// Number of volumes whose exact answer is wrong.
+    /// Wrong answers of the exact test.
     pub wrong_exact: u64,
-    /// How often the answers needed each stage.
+    /// The stages that the answers needed.
     pub counts: VolumeCounts,
 }
 
@@ -157,10 +163,11 @@ impl fmt::Display for VolumeTally {
     }
 }
 
-/// Verifies this many volumes of each kind in a family.
+/// Verifies this many volumes of each kind in a family; `on_cases` is called, from every thread,
+/// with the number of volumes that were done since its last call.
 ///
 /// ```
-/// use frusta::report::{VolumeKind, verify_volumes};
+/// use frusta_lab::{VolumeKind, verify_volumes};
 /// use frusta::samples::Family;
 /// let rows = verify_volumes(Family::OffAxis, 200, 1, 1, &|_| {});
 /// assert_eq!(rows.len(), VolumeKind::ALL.len());
@@ -173,10 +180,7 @@ pub fn verify_volumes(
     threads: usize,
     on_cases: &(dyn Fn(u64) + Sync),
 ) -> Vec<VolumeRow> {
-    let kinds = VolumeKind::ALL;
-    let kinds = kinds
-        .into_iter()
-        .filter(|kind| family.has_f32() || !kind.is_single());
+    let kinds = VolumeKind::of_family(family);
     let next = AtomicU64::new(0);
     let all = kinds.clone().map(|kind| VolumeRow {
         family,
@@ -210,7 +214,7 @@ pub fn verify_volumes(
     rows.into_inner().unwrap_or_else(|e| e.into_inner())
 }
 
-/// A scene, the culler that is tested and the oracle.
+/// A scene, its culler and its oracle.
 struct Bench<'a> {
     scene: &'a Scene,
     seed: u64,
@@ -240,14 +244,14 @@ impl<'a> Bench<'a> {
                 }
                 tally
             }
-            VolumeKind::Sphere => self.spheres(indices.map(|n| hard_sphere::<f64>(scene, seed, n))),
+            VolumeKind::Sphere => self.spheres(numbers.map(|n| hard_sphere::<f64>(scene, seed, n))),
             VolumeKind::SphereF32 => {
-                self.spheres(indices.map(|n| hard_sphere::<f32>(scene, seed, n)))
+                self.spheres(numbers.map(|n| hard_sphere::<f32>(scene, seed, n)))
             }
         }
     }
 
-    /// Compares the answer about one volume with the truth, plane by plane, which is returned.
+    /// Compares the answer for one volume with the truth, plane by plane, and returns the truth.
     fn alone(&self, volume: Volume, tally: &mut VolumeTally) -> Containment {
         let truth = self.oracle.classify(&volume);
         let found = self.culler.classify_counted(volume, &mut tally.counts);
@@ -260,7 +264,7 @@ impl<'a> Bench<'a> {
         truth
     }
 
-    /// Compares the exact answer about a volume with this class plane by plane.
+    /// Compares the exact test's answer, given the class by planes.
     fn exactly(&self, volume: Volume, by_planes: Containment, tally: &mut VolumeTally) {
         let truth = match by_planes {
             Containment::Crossing if !self.oracle.intersects(&volume) => Containment::Outside,
@@ -269,7 +273,7 @@ impl<'a> Bench<'a> {
         let mut counts = VolumeCounts::default();
         let found = self.culler.classify_exact_counted(volume, &mut counts);
         tally.wrong_exact += u64::from(found != Ok(truth));
-        tally.counts.exact_tests += counts.exact_tests;
+        tally.counts.asked += counts.asked;
         tally.counts.false_accepts += counts.false_accepts;
     }
 
@@ -280,20 +284,10 @@ impl<'a> Bench<'a> {
     }
 
     fn spheres<T: Real>(&self, spheres: impl Iterator<Item = Sphere<T>>) -> VolumeTally {
-        let (spheres, mut classes) = (spheres.collect::<Vec<_>>(), Vec::new());
-        let done = self.culler.over(&spheres).classes(&mut classes);
-        self.together(&spheres, &classes, done.is_ok())
-    }
-
-    /// Compares each volume alone, and its class of a query over all.
-    fn together<V: Copy + Into<Volume>>(
-        &self,
-        volumes: &[V],
-        classes: &[Containment],
-        is_done: bool,
-    ) -> VolumeTally {
         let mut tally = VolumeTally::default();
-        for (i, &volume) in volumes.iter().enumerate() {
+        let (spheres, mut classes) = (spheres.collect::<Vec<_>>(), Vec::new());
+        let batch = self.culler.classify_spheres(&spheres, &mut classes);
+        for (i, &volume) in spheres.iter().enumerate() {
             let truth = self.alone(volume.into(), &mut tally);
             let class = classes.get(i).filter(|_| is_done);
             tally.wrong_in_batch += u64::from(class != Some(&truth));

@@ -1,22 +1,22 @@
-//! Boxes and spheres, one by one and many at once: errors, false accepts, run times.
+//! Boxes, spheres and batches: errors, false accepts, run times.
 //!
 //! # Errors
-//! The culler's answers about hard volumes of every family, one by one and many at once, are
-//! compared with integers: [`verify_volumes`].
+//! Hard volumes of every family, classified alone and in batches, compared with integer arithmetic:
+//! [`verify_volumes`].
 //!
 //! # False accepts
-//! A test plane by plane accepts boxes that are beyond an edge or a corner: no face plane rejects
-//! them. Boxes of up to a size, in and around a turned camera's frustum, are tested plane by plane
-//! and exactly; the share is that of the accepted boxes that the exact test rejects. It depends on
-//! the distribution of boxes: here even where a box of that size can touch the frustum's bounding
-//! box.
+//! A test face by face accepts too many boxes: no single face rejects one beyond an edge. Counted
+//! are boxes of up to a size, in and about a turned camera's frustum, that the faces accept and the
+//! exact test rejects. The share depends on the placement: here evenly where a box of that size can
+//! touch the frustum's bounding box.
 //!
 //! # Times
-//! The same everyday boxes, spheres and segments, one a call and [`VolumeSurvey::PIECE`] a call, in
-//! [turns](super::turns).
+//! The same everyday boxes, spheres and segments, one a call and in batches of
+//! [`VolumeSurvey::PIECE`], in [turns](super::turns).
 
 use super::turns::{Timing, Turns};
 use super::verify_volumes::{VolumeKind, VolumeTally, verify_volumes};
+use super::work::{OnWork, Work};
 use frusta::clip::{SegmentArrays, SegmentIntervals};
 use frusta::cull::{Aabb, Containment, Culler, Obb, Sphere};
 use frusta::cull::{BoxArrays, BoxSet, ContainmentMasks, SphereArrays};
@@ -26,18 +26,18 @@ use frusta::samples::{Family, Mix, Random};
 use std::hint::black_box;
 use std::time::Instant;
 
-/// The results on volumes.
+/// The findings on volumes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct VolumeSurvey {
     /// Sums over families, a row a kind.
     pub errors: Vec<(VolumeKind, VolumeTally)>,
     /// By size and field of view.
     pub accepts: Vec<FalseAccepts>,
-    /// Run times, a row a function; the others of a job are compared with its first.
+    /// Run times, a row for each function; ratios are to the first function of a job.
     pub times: Vec<VolumeTime>,
     /// Number of volumes of each kind that were timed.
     pub timed: usize,
-    /// Number of rounds.
+    /// How many rounds were timed.
     pub rounds: u32,
 }
 
@@ -48,9 +48,9 @@ pub struct VolumePlan {
     pub families: Vec<Family>,
     /// Volumes of each kind and family.
     pub cases: u64,
-    /// Which ones.
+    /// The seed of all volumes.
     pub seed: u64,
-    /// Threads that try them.
+    /// Threads that verify them.
     pub threads: usize,
     /// Boxes of each size and field of view.
     pub boxes: u64,
@@ -61,18 +61,18 @@ pub struct VolumePlan {
 }
 
 impl VolumePlan {
-    /// How much of `on_step` there will be.
-    pub fn steps(&self) -> u64 {
-        let tried = self.families.len() as u64 * VolumeKind::ALL.len() as u64 * self.cases;
-        let timed = u64::from(self.rounds) * TIMED_STEP;
-        tried + VIEWS.len() as u64 * (self.boxes / BOXES_STEP) + timed
+    /// How much of each kind of work this is.
+    pub fn work(&self) -> [(Work, u64); 3] {
+        let kinds = |&family: &Family| VolumeKind::of_family(family).count() as u64;
+        let tried = self.families.iter().map(kinds).sum::<u64>() * self.cases;
+        let rounds = JOBS.len() * Turns::rounds(self.rounds as usize);
+        [
+            (Work::Volumes, tried),
+            (Work::Boxes, VIEWS.len() as u64 * self.boxes),
+            (Work::VolumeRounds, rounds as u64),
+        ]
     }
 }
-
-/// Boxes that weigh as much as one that is tried.
-const BOXES_STEP: u64 = 16;
-/// What a round of times weighs.
-const TIMED_STEP: u64 = 400;
 
 /// Half extents up to this part of the depth, and fields of view in radians.
 const VIEWS: [(f64, f64); 6] = [
@@ -84,7 +84,7 @@ const VIEWS: [(f64, f64); 6] = [
     (0.5, 0.1),
 ];
 
-/// Boxes that no face plane rejects, and those of them that the exact test rejects.
+/// Boxes that the faces accept and the exact test rejects.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FalseAccepts {
     /// Half extents are up to this part of the far distance.
@@ -95,12 +95,12 @@ pub struct FalseAccepts {
     pub boxes: u64,
     /// Number of boxes that no face plane rejects.
     pub accepted: u64,
-    /// Number of these that are separate from the frustum.
+    /// How many of these are outside of the frustum.
     pub falsely: u64,
 }
 
 impl FalseAccepts {
-    /// The share of false accepts in what is accepted.
+    /// The share of the accepted boxes that are falsely accepted.
     pub fn share(&self) -> f64 {
         self.falsely as f64 / self.accepted.max(1) as f64
     }
@@ -109,16 +109,16 @@ impl FalseAccepts {
 /// A function's time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct VolumeTime {
-    /// The kind of volume, all in `f32`: `box`, `oriented box`, `sphere` or `segment`.
+    /// What is classified or clipped: `box`, `oriented box`, `sphere` or `segment`, in `f32`.
     pub job: &'static str,
-    /// The function and, of many, the source.
+    /// The function, and the layout of its input.
     pub function: &'static str,
     /// The time a volume; the ratio is to the job's first function.
     pub timing: Timing,
 }
 
 impl VolumeSurvey {
-    /// Number of volumes a call, in queries over many.
+    /// The number of volumes in one call of a batch.
     pub const PIECE: usize = 4096;
 
     /// Whether every answer is right.
@@ -127,10 +127,11 @@ impl VolumeSurvey {
     }
 }
 
-/// Tries, counts and times.
+/// Verifies hard volumes, counts false accepts and takes times; `on_work` is called with all of
+/// [`VolumePlan::work`], part by part.
 ///
 /// ```
-/// use frusta::report::{VolumePlan, volumes};
+/// use frusta_lab::{VolumePlan, volumes};
 /// use frusta::samples::Family;
 /// let plan = VolumePlan {
 ///     families: vec![Family::Random],
@@ -141,36 +142,37 @@ impl VolumeSurvey {
 ///     timed: 5_000,
 ///     rounds: 1,
 /// };
-/// let found = volumes(&plan, &|_| {});
+/// let found = volumes(&plan, &|_, _| {});
 /// assert!(found.is_right());
-/// // More than a fifth of large boxes in a narrow view are accepted falsely.
+/// // With a narrow view, more than a fifth of the accepted large boxes are outside.
 /// assert!(found.accepts.last().unwrap().share() > 0.2);
 /// ```
-pub fn volumes(plan: &VolumePlan, on_step: &(dyn Fn(u64) + Sync)) -> VolumeSurvey {
+pub fn volumes(plan: &VolumePlan, on_work: OnWork<'_>) -> VolumeSurvey {
+    let on_cases = |cases| on_work(Work::Volumes, cases);
     let mut errors = VolumeKind::ALL.map(|kind| (kind, VolumeTally::default()));
     for &family in &plan.families {
-        for row in verify_volumes(family, plan.cases, plan.seed, plan.threads, on_step) {
+        for row in verify_volumes(family, plan.cases, plan.seed, plan.threads, &on_cases) {
             errors[row.kind as usize].1 += row.tally;
         }
     }
     let accepts = VIEWS.iter().filter_map(|&(size, view)| {
         let found = false_accepts(size, view, plan);
-        on_step(plan.boxes / BOXES_STEP);
+        on_work(Work::Boxes, plan.boxes);
         found
     });
     VolumeSurvey {
         errors: errors.to_vec(),
         accepts: accepts.collect(),
-        times: times(plan, on_step),
+        times: times(plan, on_work),
         timed: plan.timed,
         rounds: plan.rounds,
     }
 }
 
-/// As far as is seen in these views.
+/// The far distance of these views.
 const FAR: f64 = 100.0;
 
-/// A square view from 1 to 100, along none of the axes, which boxes lie along: as cameras do.
+/// A square view from 1 to 100, oblique to the axes of the boxes.
 fn view(field_of_view: f64) -> Option<Frustum> {
     let camera = Camera {
         eye: Vec3::default(),
@@ -186,7 +188,7 @@ fn view(field_of_view: f64) -> Option<Frustum> {
     camera.frustum().ok()
 }
 
-/// A box of up to a half extent, evenly where one can touch the frustum's bounds.
+/// A box with half extents up to `most`, evenly where one can touch the frustum's bounds.
 fn any_box(random: &mut Random, [low, high]: [Vec3<f64>; 2], most: f64) -> Aabb<f64> {
     let mut pick = |k: usize| random.between(low[k] - most, high[k] + most);
     let middle = Vec3::new(pick(0), pick(1), pick(2));
@@ -195,7 +197,7 @@ fn any_box(random: &mut Random, [low, high]: [Vec3<f64>; 2], most: f64) -> Aabb<
     Aabb::new(middle - half, middle + half)
 }
 
-/// The corners of what bounds a frustum.
+/// The corners of the frustum's bounding box.
 fn bounds(frustum: &Frustum) -> Option<[Vec3<f64>; 2]> {
     let corners = frustum.corners();
     let FarCorners::Points(far) = corners.far else {
@@ -215,8 +217,8 @@ fn false_accepts(size: f64, field_of_view: f64, plan: &VolumePlan) -> Option<Fal
         let volume = any_box(&mut random, bounds, size * FAR);
         if culler.classify(volume) != Ok(Containment::Outside) {
             accepted += 1;
-            let is_separate = culler.classify_exact(volume) == Ok(Containment::Outside);
-            falsely += u64::from(is_separate);
+            let is_outside = culler.classify_exact(volume) == Ok(Containment::Outside);
+            falsely += u64::from(is_outside);
         }
     }
     Some(FalseAccepts {
@@ -228,7 +230,7 @@ fn false_accepts(size: f64, field_of_view: f64, plan: &VolumePlan) -> Option<Fal
     })
 }
 
-/// What is timed, by structures and by arrays.
+/// The timed input, in structures and in arrays.
 struct Scene {
     culler: Culler,
     boxes: Vec<Aabb<f32>>,
@@ -251,7 +253,7 @@ fn columns<V, const K: usize>(all: &[V], of: impl Fn(&V) -> [f32; K]) -> [Vec<f3
     columns
 }
 
-fn components(a: Vec3<f32>, b: Vec3<f32>) -> [f32; 6] {
+fn coordinates(a: Vec3<f32>, b: Vec3<f32>) -> [f32; 6] {
     [a.x, a.y, a.z, b.x, b.y, b.z]
 }
 
@@ -261,14 +263,14 @@ impl Scene {
         let mut random = Random::new(&[plan.seed, 3]);
         let bounds = bounds(&frustum)?;
         let most = 0.02 * (bounds[1].z - bounds[0].z);
-        let mut single = || {
+        let mut small_box = || {
             let volume = any_box(&mut random, bounds, most);
             Aabb::new(
                 Vec3::<f32>::from_f64(volume.min),
                 Vec3::<f32>::from_f64(volume.max),
             )
         };
-        let boxes: Vec<Aabb<f32>> = (0..plan.timed).map(|_| single()).collect();
+        let boxes: Vec<Aabb<f32>> = (0..plan.timed).map(|_| small_box()).collect();
         let sphere = |b: &Aabb<f32>| Sphere::new(b.min, b.max.x - b.min.x);
         let spheres: Vec<Sphere<f32>> = boxes.iter().map(sphere).collect();
         // Turned about two axes.
@@ -284,13 +286,13 @@ impl Scene {
         let sets = boxes.chunks(VolumeSurvey::PIECE);
         Some(Self {
             culler: Culler::new(&frustum),
-            box_columns: columns(&boxes, |b| components(b.min, b.max)),
+            box_columns: columns(&boxes, |b| coordinates(b.min, b.max)),
             sets: sets
                 .map(|some| BoxSet::new(some.iter().copied()))
                 .collect::<Result<_, _>>()
                 .ok()?,
             sphere_columns: columns(&spheres, |s| [s.center.x, s.center.y, s.center.z, s.radius]),
-            segment_columns: columns(&segments, |s| components(s.start, s.end)),
+            segment_columns: columns(&segments, |s| coordinates(s.start, s.end)),
             oriented: oriented.collect(),
             boxes,
             spheres,
@@ -305,7 +307,7 @@ impl Scene {
     }
 }
 
-/// Memory that functions write to.
+/// Output buffers.
 #[derive(Default)]
 struct Buffers {
     masks: ContainmentMasks,
@@ -313,10 +315,13 @@ struct Buffers {
     intervals: SegmentIntervals<f32>,
 }
 
-/// A job, the name of a function, and a run of it over all volumes.
+/// The jobs, in the order of tables.
+const JOBS: [&str; 4] = ["box", "oriented box", "sphere", "segment"];
+
+/// A job, a function's name, and one pass of it over all of the input.
 type Timed = (&'static str, &'static str, fn(&Scene, &mut Buffers));
 
-/// Results are ignored: all volumes are valid.
+/// No call returns an error: all volumes are valid.
 const TIMED: [Timed; 13] = [
     ("box", "classify", |scene, _| {
         for volume in &scene.boxes {
@@ -370,8 +375,8 @@ const TIMED: [Timed; 13] = [
         for range in scene.pieces() {
             let [a, b, c, radius] = scene.sphere_columns.each_ref().map(|v| &v[range.clone()]);
             let center = [a, b, c];
-            let query = scene.culler.over(SphereArrays { center, radius });
-            let _ = query.masks(&mut to.masks);
+            let input = Spheres::from(SphereArrays { center, radius });
+            let _ = scene.culler.mask_spheres(input, &mut to.masks);
         }
     }),
     ("segment", "clip_segment", |scene, _| {
@@ -388,50 +393,35 @@ const TIMED: [Timed; 13] = [
         for range in scene.pieces() {
             let [a, b, c, d, e, f] = scene.segment_columns.each_ref().map(|v| &v[range.clone()]);
             let (start, end) = ([a, b, c], [d, e, f]);
-            let arrays = SegmentArrays { start, end };
-            let _ = scene.culler.clip_intervals(arrays, &mut to.intervals);
+            let input = SegmentArrays { start, end };
+            let _ = scene.culler.clip_intervals(input, &mut to.intervals);
         }
     }),
 ];
 
-fn times(plan: &VolumePlan, on_step: &dyn Fn(u64)) -> Vec<VolumeTime> {
+fn times(plan: &VolumePlan, on_work: OnWork<'_>) -> Vec<VolumeTime> {
     let Some(scene) = Scene::new(plan) else {
         return Vec::new();
     };
     let mut to = Buffers::default();
-    let mut jobs: Vec<Turns> = Vec::new();
-    let of = |job: &str| {
-        TIMED
-            .iter()
-            .filter(|timed| timed.0 == job)
-            .collect::<Vec<_>>()
-    };
-    let names = ["box", "oriented box", "sphere", "segment"];
-    let fields: Vec<Vec<&Timed>> = names.iter().map(|name| of(name)).collect();
-    fields
-        .iter()
-        .for_each(|field| jobs.push(Turns::new(field.len(), 0)));
-    for _ in 0..plan.rounds {
-        for (field, turns) in fields.iter().zip(&mut jobs) {
-            turns.round(|i| {
-                let start = Instant::now();
-                (field[i].2)(&scene, &mut to);
-                black_box((&to.masks, &to.list, &to.intervals));
-                start.elapsed().as_nanos() as f64 / plan.timed.max(1) as f64
-            });
-        }
-        on_step(TIMED_STEP);
+    let mut rows = Vec::new();
+    for job in JOBS {
+        let field: Vec<&Timed> = TIMED.iter().filter(|timed| timed.0 == job).collect();
+        let mut turns = Turns::new(field.len());
+        let time = |i: usize| {
+            let start = Instant::now();
+            (field[i].2)(&scene, &mut to);
+            black_box((&to.masks, &to.list, &to.intervals));
+            start.elapsed().as_nanos() as f64 / plan.timed.max(1) as f64
+        };
+        let on_round = || on_work(Work::VolumeRounds, 1);
+        turns.take(plan.rounds as usize, time, on_round);
+        let timings = turns.timings(0).into_iter();
+        rows.extend(field.iter().zip(timings).map(|(timed, timing)| VolumeTime {
+            job,
+            function: timed.1,
+            timing,
+        }));
     }
-    let rows = fields.into_iter().zip(jobs).flat_map(|(field, turns)| {
-        let medians = turns.medians().into_iter();
-        field
-            .into_iter()
-            .zip(medians)
-            .map(|(timed, timing)| VolumeTime {
-                job: timed.0,
-                function: timed.1,
-                timing,
-            })
-    });
-    rows.collect()
+    rows
 }

@@ -1,12 +1,12 @@
 //! Volumes as text, in lines of at most 100 columns.
 
-use super::paper_table::fit;
+use super::figures::{self, fit};
 use super::volumes::VolumeSurvey;
 use std::fmt;
 
 impl fmt::Display for VolumeSurvey {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        writeln!(f, "Boxes and spheres, one by one and many at once\n")?;
+        writeln!(f, "Boxes, spheres and batches\n")?;
         writeln!(
             f,
             "{:<12} {:>10} {:>8} {:>8} {:>8} {:>8}   hard cases of all families",
@@ -46,10 +46,7 @@ impl fmt::Display for VolumeSurvey {
             "", "ns", "times as fast", self.timed, self.rounds
         )?;
         for row in &self.times {
-            let speed = match row.timing.ratio {
-                ratio if ratio > 0.0 => fit(1.0 / ratio, 2, 8),
-                _ => "-".to_owned(),
-            };
+            let speed = figures::ratio(row.timing.speed().unwrap_or_default());
             let name = format!("{}: {}", row.job, row.function);
             let time = fit(row.timing.nanoseconds, 2, 8);
             writeln!(f, "{name:<34} {time:>8} {speed:>14}")?;
@@ -59,10 +56,10 @@ impl fmt::Display for VolumeSurvey {
 }
 
 const LEGEND: &str = "
-wrong, outside  wrong classes, one a call; those of them that are outside
-batch, exact    wrong classes, many a call; wrong answers of the exact test
-falsely         separate from the frustum, as the exact test finds
-times as fast   as the first function, one a call
+wrong, outside  wrong classes; those among them that are wrongly outside
+batch, exact    wrong classes in batches; wrong answers of the exact test
+falsely         boxes that are outside of the frustum; the exact test rejects them
+times as fast   as the job's first function, one volume a call; with the spread over the rounds
 ";
 
 #[cfg(test)]
@@ -81,7 +78,7 @@ mod tests {
             timed: 300,
             rounds: 1,
         };
-        let found = volumes(&plan, &|_| {});
+        let found = volumes(&plan, &|_, _| {});
         assert!(found.is_right());
         assert!(found.errors.iter().all(|(_, tally)| tally.cases > 0));
         let text = found.to_string();
@@ -101,7 +98,10 @@ mod tests {
         assert!(shares[3] > shares[0] && shares[5] > shares[2], "{shares:?}");
         plan.rounds = 0;
         assert_eq!(
-            volumes(&plan, &|_| {}).to_string().matches(" -\n").count(),
+            volumes(&plan, &|_, _| {})
+                .to_string()
+                .matches(" -\n")
+                .count(),
             13
         );
     }

@@ -5,7 +5,7 @@
 //! `bevy_shape` and are used from there; the loop over them is written down here once more, as
 //! `bevy_camera` 0.20.1 has it, with its vector types.
 
-use super::GridBox;
+use super::{BoxTest, GridBox};
 use crate::peer::{Peer, Who};
 use crate::scene::Camera;
 use bevy_math::{Vec3A, Vec4};
@@ -66,5 +66,16 @@ impl Peer for BevyLoop {
     fn answer(&mut self, block: &GridBox) -> Option<bool> {
         let block = self.prepare(block);
         Some(self.run(&block))
+    }
+}
+
+impl BoxTest for BevyLoop {
+    fn list_name(&self) -> &'static str {
+        "HalfSpace, in bevy_camera's loop, list"
+    }
+
+    #[inline]
+    fn sees(&mut self, block: &Self::Input) -> bool {
+        self.run(block)
     }
 }

@@ -1,6 +1,6 @@
 //! collision: the relation of a box's eight corners with each plane.
 
-use super::GridBox;
+use super::{BoxTest, GridBox};
 use crate::peer::{Peer, Who};
 use crate::scene::Camera;
 use cgmath::{Matrix4, Point3, SquareMatrix};
@@ -54,5 +54,16 @@ impl Peer for Collision {
     fn answer(&mut self, block: &GridBox) -> Option<bool> {
         let block = self.prepare(block);
         Some(self.run(&block) != Relation::Out)
+    }
+}
+
+impl BoxTest for Collision {
+    fn list_name(&self) -> &'static str {
+        "Frustum::contains, list"
+    }
+
+    #[inline]
+    fn sees(&mut self, block: &Self::Input) -> bool {
+        self.run(block) != Relation::Out
     }
 }

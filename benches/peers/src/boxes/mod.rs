@@ -6,6 +6,7 @@
 mod bevy;
 mod collision;
 mod exact;
+mod listed;
 mod ours;
 mod packed;
 mod treeculler;
@@ -14,7 +15,10 @@ pub use self::collision::Collision;
 pub use self::treeculler::TreeCuller;
 pub use bevy::BevyLoop;
 pub use exact::Truth;
-pub use ours::{Batch, OursBatch, OursBox, OursPoint, REFERENCE_BOX, REFERENCE_BOXES};
+pub use listed::{BoxTest, Listed};
+pub use ours::{
+    Batch, OursBatch, OursBox, OursPoint, REFERENCE_BOX, REFERENCE_BOXES, REFERENCE_SLICE,
+};
 pub use packed::PackedSpatialIndex;
 
 use crate::peer::Case;

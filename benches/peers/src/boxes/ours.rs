@@ -1,6 +1,6 @@
-//! frusta on points and boxes: one a call, and many a call.
+//! frusta on points and boxes: one call each, and in batches.
 
-use super::GridBox;
+use super::{BoxTest, GridBox};
 use crate::peer::{Contestant, Peer, Timed, Who};
 use frusta::cull::{BoxArrays, BoxSet, ContainmentMasks};
 use frusta::{Aabb, Containment, Culler, Frustum, NonFinite, Vec3, VolumeError};
@@ -44,10 +44,12 @@ impl Peer for OursPoint {
     }
 }
 
-/// The function that times of boxes are compared with, one a call.
+/// What times of one call a box are compared with.
 pub const REFERENCE_BOX: &str = "Culler::classify";
-/// The same, many a call.
-pub const REFERENCE_BOXES: &str = "Culler::over, visible in a set";
+/// What times of lists are compared with: the list of boxes that are kept.
+pub const REFERENCE_BOXES: &str = "Culler::visible_boxes, a set";
+/// What times of lists are compared with, too: the list of a plain slice of boxes.
+pub const REFERENCE_SLICE: &str = "Culler::visible_boxes, slice";
 
 /// `Culler::classify`, plane by plane, or `Culler::classify_exact`.
 pub struct OursBox {
@@ -102,7 +104,21 @@ impl Peer for OursBox {
     }
 }
 
-/// A source and an output of a query over many boxes.
+impl BoxTest for OursBox {
+    fn list_name(&self) -> &'static str {
+        match self.exact {
+            true => "Culler::classify_exact, list",
+            false => "Culler::classify, list",
+        }
+    }
+
+    #[inline]
+    fn sees(&mut self, block: &Aabb<f32>) -> bool {
+        self.run(block) != Ok(Containment::Outside)
+    }
+}
+
+/// A batch function and its input.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Batch {
     /// Classes as masks, from a structure of arrays.
@@ -113,7 +129,7 @@ pub enum Batch {
     ListOfBoxes,
     /// Classes as masks, of boxes that are kept.
     MasksOfSet,
-    /// A draw list, of boxes that are kept, as other libraries keep theirs.
+    /// A draw list, of boxes that are kept.
     ListOfSet,
 }
 
@@ -129,7 +145,7 @@ pub struct OursBatch {
 }
 
 /// Boxes in a call.
-const PIECE: usize = 4096;
+pub(super) const PIECE: usize = 4096;
 
 impl OursBatch {
     /// Queries against this frustum.
@@ -186,8 +202,8 @@ impl Timed for OursBatch {
                 Batch::Masks => "Culler::over, masks of arrays",
                 Batch::MasksOfSet => "Culler::over, masks of a set",
                 Batch::ListOfSet => REFERENCE_BOXES,
-                Batch::List => "Culler::over, visible in arrays",
-                Batch::ListOfBoxes => "Culler::over, visible in a slice",
+                Batch::List => "Culler::visible_boxes, arrays",
+                Batch::ListOfBoxes => REFERENCE_SLICE,
             },
             scalar: "f32",
             note: "4,096 a call; outside and inside exact, conservative by design",

@@ -1,6 +1,6 @@
 //! packed_spatial_index: six planes, the corner farthest along each.
 
-use super::GridBox;
+use super::{BoxTest, GridBox};
 use crate::peer::{Peer, Who};
 use crate::scene::Camera;
 use packed_spatial_index::{Box3D, ClipSpaceZ, Frustum3D};
@@ -45,5 +45,16 @@ impl Peer for PackedSpatialIndex {
     fn answer(&mut self, block: &GridBox) -> Option<bool> {
         let block = self.prepare(block);
         Some(self.run(&block))
+    }
+}
+
+impl BoxTest for PackedSpatialIndex {
+    fn list_name(&self) -> &'static str {
+        "overlaps_box, list"
+    }
+
+    #[inline]
+    fn sees(&mut self, block: &Self::Input) -> bool {
+        self.run(block)
     }
 }

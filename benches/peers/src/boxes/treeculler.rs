@@ -1,6 +1,6 @@
 //! treeculler: six planes, then the frustum's corners against the box.
 
-use super::GridBox;
+use super::{BoxTest, GridBox};
 use crate::peer::{Peer, Who};
 use crate::scene::Camera;
 use treeculler::{AABB, BVol, Frustum};
@@ -61,5 +61,19 @@ impl Peer for TreeCuller {
     fn answer(&mut self, block: &GridBox) -> Option<bool> {
         let block = self.prepare(block);
         Some(self.run(&block))
+    }
+}
+
+impl BoxTest for TreeCuller {
+    fn list_name(&self) -> &'static str {
+        match self.corners {
+            true => "BVol::test_against_frustum, list",
+            false => "BVol::test_against_plane, six, list",
+        }
+    }
+
+    #[inline]
+    fn sees(&mut self, block: &Self::Input) -> bool {
+        self.run(block)
     }
 }

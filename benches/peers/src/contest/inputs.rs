@@ -1,11 +1,11 @@
-//! What everybody is asked about, from a seed.
+//! The input, from a seed.
 
-use frusta_lab::mixes::{COUNT, Mix};
 use crate::quads::Quad;
 use frusta::samples::Random;
 use frusta::{Pose, Real, Segment, Vec3};
+use frusta_lab::mixes::{COUNT, Mix};
 
-/// Where segments come from.
+/// A source of segments.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Source {
     /// Ends on half-integer points between these, in halves: most cases are singular.
@@ -29,7 +29,7 @@ impl Source {
         matches!(self, Self::Mix(..))
     }
 
-    /// The first segments from it; of a mix no more than it has.
+    /// The first segments from it; a mix has at most [`COUNT`].
     pub(crate) fn segments<T: Real>(&self, seed: u64, count: usize) -> Vec<Segment<T>> {
         let single = |p: [f64; 3]| Vec3::from_f64(Vec3::from(p));
         let mut random = Random::new(&[seed, 3]);

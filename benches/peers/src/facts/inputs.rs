@@ -1,7 +1,6 @@
 //! The inputs, what the peers make of them, and what frusta does.
 
 use crate::boxes::{Collision, GridBox, TreeCuller};
-use frusta_lab::mixes;
 use crate::peer::Peer;
 use crate::scene::{Block, Camera};
 use crate::segments::{
@@ -12,6 +11,7 @@ use bevy_shape::ViewFrustum;
 use cgmath::Ortho;
 use collision::Projection;
 use frusta::{Accuracy, EndRect, Frustum, Pose, Real, Segment, Shape, Vec3, VwProjection};
+use frusta_lab::mixes;
 
 /// An input, with who answers it.
 pub struct Input {

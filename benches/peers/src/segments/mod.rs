@@ -13,29 +13,29 @@ pub use retrofire::{Attributed, Prepared, Slice, Transformed, cube_matrix};
 use crate::peer::Case;
 use frusta::{Real, Segment, Vec3};
 
-/// Segments a call, where slices are clipped.
+/// Segments in one call, where slices are clipped.
 const PIECE: usize = 1024;
 
-/// What a library says of a segment.
+/// A library's answer to a segment.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Found<T> {
-    /// It has nothing inside.
+    /// No part is inside.
     Nothing,
-    /// What of it is inside.
+    /// The ends of the part that is inside.
     Part([FoundEnd<T>; 2]),
     /// An error, or a number that is not finite.
     Refused,
 }
 
-/// One end of what is inside.
+/// One end of the part that is inside.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FoundEnd<T> {
-    /// Where.
+    /// Its position.
     pub point: Vec3<T>,
     /// Whether it is the segment's own end, bit for bit.
     pub kept: bool,
-    /// Whether it is inside, where the library's answer is in other coordinates than the
-    /// world's and says so exactly.
+    /// Whether it is inside, where the library's answer is in other coordinates than the world's,
+    /// in which this is exact.
     pub inside: Option<bool>,
 }
 

@@ -1,11 +1,10 @@
-//! A report as data: what stands in `report.json` and the CSV files.
+//! A report as data: `report.json` and the CSV files.
 //!
-//! `docs/report.md` says what the keys mean. They are stable: readers may rely on
-//! them within a schema, and a test holds them here.
+//! `docs/report.md` documents the keys. They are stable within a schema; a test compares the two.
 
 use super::machine::Machine;
 use super::omitted::Omission;
-use super::{Measured, Page};
+use super::{Measured, Page, answer};
 use frusta::math::hex::Hex;
 use frusta_lab::{
     Everyday, FalseAccepts, PaperFailure, PaperRow, PaperTable, SurveyRow, SurveyWitness,
@@ -14,10 +13,10 @@ use frusta_lab::{
 use serde::Serialize;
 use serde_json::{Value, json};
 
-/// Changes when a key goes or changes its meaning.
+/// Changes when a key is removed or changes its meaning.
 const SCHEMA: &str = "frusta-report/1";
 
-/// The whole of `report.json`.
+/// All of `report.json`.
 #[derive(Debug, Serialize)]
 pub(crate) struct Report<'a> {
     schema: &'static str,
@@ -28,6 +27,7 @@ pub(crate) struct Report<'a> {
     seed: u64,
     cases: u64,
     rounds: u32,
+    answer: [String; 3],
     pub(crate) rows: Vec<Row>,
     pub(crate) witnesses: Vec<Witness<'a>>,
     everyday: Vec<EverydayRow>,
@@ -56,6 +56,7 @@ impl<'a> Report<'a> {
             seed: survey.seed,
             cases: survey.cases,
             rounds: survey.rounds,
+            answer: answer::sentences(page.measured),
             rows: survey.rows.iter().map(Row::new).collect(),
             witnesses: survey.witnesses.iter().map(Witness::new).collect(),
             everyday: self::everyday(everyday),
@@ -74,7 +75,7 @@ impl<'a> Report<'a> {
 
     /// The text of `report.json`.
     pub(crate) fn to_json(&self) -> String {
-        // Keys are texts and all numbers are finite: nothing here can fail.
+        // Keys are strings and all numbers are finite, so this cannot fail.
         let text = serde_json::to_string_pretty(self).unwrap_or_default();
         text + "\n"
     }
@@ -92,6 +93,8 @@ pub(crate) struct Row {
     refused: u64,
     ns_median: f64,
     time_ratio: f64,
+    time_ratio_lower: f64,
+    time_ratio_upper: f64,
     max_error_ulp: f64,
     p999_error_ulp: f64,
     max_error_u_scale: f64,
@@ -114,7 +117,9 @@ impl Row {
             wrong_faces: row.wrong_faces,
             refused: row.refused,
             ns_median: row.ns_median,
-            time_ratio: row.time_ratio,
+            time_ratio: row.time_ratio.median,
+            time_ratio_lower: row.time_ratio.lower,
+            time_ratio_upper: row.time_ratio.upper,
             max_error_ulp: row.error_ulp.max,
             p999_error_ulp: row.error_ulp.p999,
             max_error_u_scale: row.error_u_scale.max,
@@ -128,7 +133,7 @@ impl Row {
     }
 }
 
-/// An input that was the worst for a row.
+/// A worst input of a row.
 #[derive(Debug, Serialize)]
 pub(crate) struct Witness<'a> {
     pub(crate) algorithm: &'static str,
@@ -166,6 +171,8 @@ struct EverydayRow {
     rounds: u32,
     ns_median: f64,
     time_ratio: f64,
+    time_ratio_lower: f64,
+    time_ratio_upper: f64,
     wrong: usize,
 }
 
@@ -180,7 +187,9 @@ fn everyday(everyday: &Everyday) -> Vec<EverydayRow> {
         segments: everyday.segments,
         rounds: everyday.rounds,
         ns_median: row.timing.nanoseconds,
-        time_ratio: row.timing.ratio,
+        time_ratio: row.timing.ratio.median,
+        time_ratio_lower: row.timing.ratio.lower,
+        time_ratio_upper: row.timing.ratio.upper,
         wrong: row.wrong,
     })
     .collect()
@@ -219,12 +228,14 @@ fn volume_time(volumes: &VolumeSurvey, row: &VolumeTime) -> Value {
         "timed": volumes.timed,
         "rounds": volumes.rounds,
         "ns_median": row.timing.nanoseconds,
-        "time_ratio": row.timing.ratio,
+        "time_ratio": row.timing.ratio.median,
+        "time_ratio_lower": row.timing.ratio.lower,
+        "time_ratio_upper": row.timing.ratio.upper,
     })
 }
 
-/// The paper's table: a row an algorithm, tier and scalar type, then a row a sample
-/// that one of them got wrong.
+/// The paper's table: a row for each algorithm, tier and scalar type, then one for each sample that
+/// one of them got wrong.
 fn paper(table: &PaperTable) -> Vec<Value> {
     let clippers = table.rows.iter().map(|row| clipper(table, row));
     let failures = table.rows.iter().flat_map(|row| {
@@ -234,7 +245,7 @@ fn paper(table: &PaperTable) -> Vec<Value> {
     clippers.chain(failures).collect()
 }
 
-/// A row with nothing nested in it.
+/// A flat row.
 fn clipper(table: &PaperTable, row: &PaperRow) -> Value {
     let mut object = json!({
         "row": "clipper",
@@ -244,8 +255,12 @@ fn clipper(table: &PaperTable, row: &PaperRow) -> Value {
         "repeats": table.repeats,
         "rounds": table.rounds,
         "paper_ratio": row.paper,
-        "ratio_in_order": row.in_order.ratio,
-        "ratio_shuffled": row.shuffled.ratio,
+        "ratio_in_order": row.in_order.ratio.median,
+        "ratio_in_order_lower": row.in_order.ratio.lower,
+        "ratio_in_order_upper": row.in_order.ratio.upper,
+        "ratio_shuffled": row.shuffled.ratio.median,
+        "ratio_shuffled_lower": row.shuffled.ratio.lower,
+        "ratio_shuffled_upper": row.shuffled.ratio.upper,
         "ns_in_order": row.in_order.nanoseconds,
         "ns_shuffled": row.shuffled.nanoseconds,
         "steady": row.steady,

@@ -1,10 +1,10 @@
 //! A report's folder.
 //!
-//! Its files are begun before anything is measured, so that a folder that cannot be
-//! written is no loss of minutes, and get their names when all of them are whole.
+//! Its files are created before anything is measured, so that a folder that cannot be written is
+//! reported at once. They get their names when all of them are complete.
 
 use super::data::{Report, Witness};
-use super::{Page, page};
+use super::{Page, page, text};
 use crate::failure::Failure;
 use crate::io::atomic_file::AtomicFile;
 use frusta::samples::Family;
@@ -16,22 +16,23 @@ use std::path::{Path, PathBuf};
 /// The files of a report, begun.
 pub(crate) struct Folder {
     folder: PathBuf,
-    json: AtomicFile,
-    rows: AtomicFile,
-    witnesses: AtomicFile,
-    lines: AtomicFile,
-    html: AtomicFile,
-    panels: Vec<(Family, AtomicFile)>,
+    json: WholeFile,
+    rows: WholeFile,
+    witnesses: WholeFile,
+    lines: WholeFile,
+    html: WholeFile,
+    tables: WholeFile,
+    panels: Vec<(Family, WholeFile)>,
 }
 
 impl Folder {
-    /// Makes the folder where there is none, and begins the files.
+    /// Makes the folder if it does not exist, and begins the files.
     pub(crate) fn begin(folder: &Path, families: &[Family]) -> Result<Self, Failure> {
         make(folder)?;
         let begin = |name| AtomicFile::create(&folder.join(name));
         let (json, rows) = (begin("report.json")?, begin("rows.csv")?);
         let (witnesses, lines) = (begin("witnesses.csv")?, begin("witnesses.txt")?);
-        let html = begin("report.html")?;
+        let (html, tables) = (begin("report.html")?, begin("tables.txt")?);
         let panels = folder.join("panels");
         make(&panels)?;
         let panel = |&family: &Family| {
@@ -45,6 +46,7 @@ impl Folder {
             witnesses,
             lines,
             html,
+            tables,
             panels: families.iter().map(panel).collect::<Result<_, _>>()?,
         })
     }
@@ -56,11 +58,18 @@ impl Folder {
         self.witnesses
             .write(&self.csv("witnesses.csv", &report.witnesses)?)?;
         self.lines.write(lines(&report.witnesses).as_bytes())?;
+        self.tables.write(text::tables(page.measured).as_bytes())?;
         self.html.write(page::html(page)?.as_bytes())?;
         for (family, file) in &mut self.panels {
             file.write(page::panel(page, *family).as_bytes())?;
         }
-        let data = [self.rows, self.witnesses, self.lines, self.json];
+        let data = [
+            self.rows,
+            self.witnesses,
+            self.lines,
+            self.tables,
+            self.json,
+        ];
         let panels = self.panels.into_iter().map(|(_, file)| file);
         let mut files = data.into_iter().chain(panels).chain([self.html]);
         files.try_for_each(AtomicFile::finish)
@@ -80,7 +89,7 @@ impl Folder {
     }
 }
 
-/// Makes a folder where there is none.
+/// Makes a folder if it does not exist.
 fn make(folder: &Path) -> Result<(), Failure> {
     std::fs::create_dir_all(folder).map_err(|e| {
         let why = match e.kind() {
@@ -92,8 +101,8 @@ fn make(folder: &Path) -> Result<(), Failure> {
     })
 }
 
-/// Every worst input once, under comments that say for whom; `frusta replay` takes it
-/// as it stands.
+/// Every worst input once, under comments that name the rows that it is the worst of: a file for
+/// `frusta replay`.
 fn lines(witnesses: &[Witness<'_>]) -> String {
     // In the order of their first occurrence.
     let mut places: BTreeMap<&str, usize> = BTreeMap::new();
@@ -110,7 +119,7 @@ fn lines(witnesses: &[Witness<'_>]) -> String {
             value,
             ..
         } = witness;
-        // An integer for what is counted; errors may have 300 digits.
+        // Counts are integers; errors may have 300 digits.
         let way = if *value < 1e9 {
             format!("{worst} {value}")
         } else {

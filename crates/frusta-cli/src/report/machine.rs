@@ -1,4 +1,4 @@
-//! What times were taken on.
+//! The machine that times were taken on.
 
 use serde::Serialize;
 
@@ -7,7 +7,7 @@ use serde::Serialize;
 pub(crate) struct Machine {
     /// The processor's own name.
     pub(crate) cpu: String,
-    /// How many threads it runs at once, for this process.
+    /// How many threads this process may run at once.
     pub(crate) cores: usize,
     /// The operating system.
     pub(crate) os: &'static str,
@@ -15,7 +15,7 @@ pub(crate) struct Machine {
     pub(crate) arch: &'static str,
     /// The compiler's version.
     pub(crate) rustc: String,
-    /// The vector instructions that are there at run time.
+    /// The vector instructions available at run time.
     pub(crate) simd: String,
 }
 
@@ -33,7 +33,7 @@ impl Machine {
     }
 }
 
-/// Where Linux tells a processor's name.
+/// The processor's name, where Linux gives it.
 fn cpu() -> Option<String> {
     let text = std::fs::read_to_string("/proc/cpuinfo").ok()?;
     let mut fields = text.lines().filter_map(|line| line.split_once(':'));
@@ -41,7 +41,7 @@ fn cpu() -> Option<String> {
     Some(name.trim().to_owned())
 }
 
-/// The level's name in lower case: `avx2`, `neon`.
+/// The SIMD level's name in lower case: `avx2`, `neon`.
 fn simd() -> String {
     let level = format!("{:?}", fearless_simd::Level::new());
     let name = level.split(['(', ' ']).next().unwrap_or_default();

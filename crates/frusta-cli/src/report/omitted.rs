@@ -1,4 +1,4 @@
-//! What a report leaves out, and why.
+//! What was not measured, and why.
 
 use frusta::samples::Family;
 use frusta_lab::Survey;
@@ -9,7 +9,7 @@ use serde::Serialize;
 pub(crate) struct Omission {
     /// What it is.
     pub(crate) what: String,
-    /// Why it is not there.
+    /// Why it was not measured.
     pub(crate) why: String,
 }
 
@@ -22,42 +22,37 @@ impl Omission {
     }
 }
 
-/// What a survey, and a report of it, lacks.
+/// Everything that this report does not measure.
 pub(crate) fn omissions(survey: &Survey, has_peers: bool) -> Vec<Omission> {
     let surveyed = |family: &Family| survey.rows.iter().any(|row| row.family == *family);
     let names = |families: Vec<Family>| -> String {
         let names: Vec<&str> = families.iter().map(|f| f.name()).collect();
         names.join(", ")
     };
-    let (there, missing): (Vec<Family>, Vec<Family>) =
+    let (present, missing): (Vec<Family>, Vec<Family>) =
         Family::ALL.iter().copied().partition(surveyed);
-    let doubles: Vec<Family> = there.into_iter().filter(|f| !f.has_f32()).collect();
+    let only_f64: Vec<Family> = present.into_iter().filter(|f| !f.has_f32()).collect();
     let mut omitted = Vec::new();
     if !missing.is_empty() {
         omitted.push(Omission::new(
             format!("the families {}", names(missing)),
-            "this run was asked for others only",
+            "this run was restricted to others",
         ));
     }
-    if !doubles.is_empty() {
+    if !only_f64.is_empty() {
         omitted.push(Omission::new(
-            format!("f32 in the families {}", names(doubles)),
-            "their numbers are beyond the range of f32, or what is singular about them does not \
-             survive the rounding",
+            format!("f32 in the families {}", names(only_f64)),
+            "their coordinates are beyond the range of f32, or rounding to f32 removes their singularity",
         ));
     }
-    omitted.push(Omission::new(
-        "f32 with fused multiply-add",
-        "it would show what f64 shows already",
-    ));
     omitted.push(Omission::new(
         "hard cases over slices",
-        "families are timed one segment a call; slices, on everyday segments",
+        "families are timed with one segment a call, slices on everyday segments",
     ));
     if !has_peers {
         omitted.push(Omission::new(
             "other libraries",
-            "no file of theirs was given (--peers)",
+            "no file of their results was given (--peers)",
         ));
     }
     omitted

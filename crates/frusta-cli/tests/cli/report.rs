@@ -35,8 +35,13 @@ const SMALL: [&str; 10] = [
     "thin,subnormal",
 ];
 
-/// A report with these flags, of which the exit code is 0.
+/// A small report with these flags and without a folder; it must exit with 0.
 fn report(args: &[&str]) -> Output {
+    run_report(&[&["--no-out"], args].concat())
+}
+
+/// A small report with these flags; it must exit with 0.
+fn run_report(args: &[&str]) -> Output {
     let run = frusta(&[&["report"], args, &SMALL].concat());
     assert_eq!(
         run.status.code(),
@@ -57,11 +62,13 @@ fn keys(object: &Value) -> Vec<&str> {
         .collect()
 }
 
+const DOCUMENTATION: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/report.md");
+
 /// The keys that docs/report.md promises, in the order of `serde_json`'s maps.
 #[test]
 fn the_keys_of_report_json_stay() {
     let json: Value = serde_json::from_slice(&report(&["--json"]).stdout).unwrap();
-    let documented = std::fs::read_to_string("docs/report.md").unwrap();
+    let documented = std::fs::read_to_string(DOCUMENTATION).unwrap();
     let promised = |names: &str, object: &Value| {
         let mut names: Vec<&str> = names.split_whitespace().collect();
         for name in &names {
@@ -71,14 +78,14 @@ fn the_keys_of_report_json_stay() {
         assert_eq!(keys(object), names);
     };
     promised(
-        "schema frusta command machine seconds seed cases rounds rows witnesses everyday volumes \
+        "schema frusta command machine seconds seed cases rounds answer rows witnesses everyday volumes \
          false_accepts volume_times paper peers omitted",
         &json,
     );
     promised("cpu cores os arch rustc simd", &json["machine"]);
     promised(
         "algorithm tier family cases wrong_class wrong_faces refused ns_median time_ratio \
-         max_error_ulp p999_error_ulp max_error_u_scale p999_error_u_scale outside asymmetric \
+         time_ratio_lower time_ratio_upper max_error_ulp p999_error_ulp max_error_u_scale p999_error_u_scale outside asymmetric \
          non_idempotent filter_failures exact_stage",
         &json["rows"][0],
     );
@@ -87,7 +94,8 @@ fn the_keys_of_report_json_stay() {
         &json["witnesses"][0],
     );
     promised(
-        "mix place algorithm tier slices segments rounds ns_median time_ratio wrong",
+        "mix place algorithm tier slices segments rounds ns_median time_ratio \
+         time_ratio_lower time_ratio_upper wrong",
         &json["everyday"][0],
     );
     promised(
@@ -99,7 +107,7 @@ fn the_keys_of_report_json_stay() {
         &json["false_accepts"][0],
     );
     promised(
-        "job function scalar timed rounds ns_median time_ratio",
+        "job function scalar timed rounds ns_median time_ratio time_ratio_lower time_ratio_upper",
         &json["volume_times"][0],
     );
     promised("what why", &json["omitted"][0]);
@@ -107,9 +115,10 @@ fn the_keys_of_report_json_stay() {
     let command = "frusta report --cases 40 --seed 1 --rounds 1 --repeat 1 --everyday 1500 \
                    --families subnormal,thin";
     assert_eq!(json["command"], command);
-    // Six algorithms in nine tiers, in five where there is no f32.
-    assert_eq!(json["rows"].as_array().unwrap().len(), 6 * (9 + 5));
+    // Six algorithms in eight tiers, in four of a family without f32.
+    assert_eq!(json["rows"].as_array().unwrap().len(), 6 * (8 + 4));
     assert_eq!(json["rows"][0]["tier"], "plain-f64");
+    assert_eq!(json["answer"].as_array().unwrap().len(), 3);
 }
 
 #[test]
@@ -128,7 +137,7 @@ fn a_report_has_no_number_that_is_not_finite() {
 }
 
 #[test]
-fn everyday_segments_are_clipped_by_seven_in_eight_places_and_rightly() {
+fn seven_clippers_clip_everyday_segments_in_eight_places_rightly() {
     let json: Value = serde_json::from_slice(&report(&["--json"]).stdout).unwrap();
     let rows = json["everyday"].as_array().unwrap();
     assert_eq!(rows.len(), 7 * 8);
@@ -175,8 +184,8 @@ fn the_papers_table_has_a_row_for_every_algorithm() {
 }
 
 #[test]
-fn the_report_is_tables_otherwise() {
-    let tables = text(&report(&[]).stdout);
+fn the_verbose_report_has_all_tables() {
+    let tables = text(&report(&["--verbose"]).stdout);
     for part in [
         "families: 2; cases of each in each scalar type: 40",
         "\nexact-nearest-f32: 40 cases\nvw ",
@@ -185,7 +194,7 @@ fn the_report_is_tables_otherwise() {
         "\nworld  long-crossing ",
         "\nThe 78 singular samples in the standard frame",
         "\nf32, exact\nliang-barsky-textbook     -  ",
-        "; to repeat:\nfrusta report --cases 40 ",
+        " s; the same again:\nfrusta report --cases 40 ",
     ] {
         assert!(tables.contains(part), "{part:?} not in\n{tables}");
     }
@@ -193,21 +202,68 @@ fn the_report_is_tables_otherwise() {
     assert_eq!(wide, None);
 }
 
-/// All counts, errors and witnesses: everything but times.
+#[test]
+fn the_default_text_is_the_answer_the_papers_table_and_where_the_page_is() {
+    let folder = Folder::new();
+    let mut command = Command::new(env!("CARGO_BIN_EXE_frusta"));
+    command.arg("report").args(SMALL);
+    let run = command.current_dir(folder.path("")).output().unwrap();
+    assert_eq!(run.status.code(), Some(0), "{}", text(&run.stderr));
+    let printed = text(&run.stdout);
+    let places = [
+        "Exact clipping gave 0 wrong answers of ",
+        "On everyday segments ",
+        "n the hard families",
+        "The paper's table, made again: its 78 singular samples",
+        "\nplain six-planes ",
+        "frusta-report/report.html\n",
+    ];
+    let places = places.map(|part| printed.find(part).expect(part));
+    assert!(places.is_sorted(), "{printed}");
+    let widest = printed.lines().map(|line| line.chars().count()).max();
+    assert!(
+        widest <= Some(100) && printed.lines().count() <= 60,
+        "{printed}"
+    );
+    assert!(!printed.contains("e308"));
+    let page = folder.read("frusta-report/report.html");
+    assert!(page.starts_with("<!DOCTYPE html>"));
+    // JSON goes to the standard output alone, unless a folder is asked for.
+    let none = Folder::new();
+    let mut command = Command::new(env!("CARGO_BIN_EXE_frusta"));
+    command.args(["report", "--json"]).args(SMALL);
+    let run = command.current_dir(none.path("")).output().unwrap();
+    assert!(run.status.success() && none.files().is_empty());
+}
+
+/// The keys of times.
+const TIMES: [&str; 4] = [
+    "ns_median",
+    "time_ratio",
+    "time_ratio_lower",
+    "time_ratio_upper",
+];
+
+/// All counts, errors and witnesses: everything except times.
 fn timeless(mut json: Value) -> Value {
     for key in ["seconds", "paper"] {
         json[key] = Value::Null;
     }
+    for sentence in 1..3 {
+        json["answer"][sentence] = Value::Null;
+    }
     for list in ["rows", "everyday", "volume_times"] {
         for row in json[list].as_array_mut().unwrap() {
-            (row["ns_median"], row["time_ratio"]) = (Value::Null, Value::Null);
+            for key in TIMES {
+                row[key] = Value::Null;
+            }
         }
     }
     json
 }
 
 #[test]
-fn threads_do_not_change_what_is_found() {
+fn threads_do_not_change_the_findings() {
     let with = |threads| {
         let run = report(&["--json", "--threads", threads]);
         timeless(serde_json::from_slice(&run.stdout).unwrap())
@@ -222,8 +278,12 @@ fn a_folder_has_it_all() {
     let folder = Folder::new();
     let peers = folder.write("peers.json", PEERS);
     let out = folder.name("new/folder");
-    let run = report(&["--out", &out, "--peers", &peers]);
-    assert!(text(&run.stdout).ends_with(&format!("written to {out}\n")));
+    let run = run_report(&["--out", &out, "--peers", &peers]);
+    let printed = text(&run.stdout);
+    for file in ["report.html", "tables.txt", "report.json", "witnesses.txt"] {
+        assert!(printed.contains(&format!("{out}/{file}\n")), "{printed}");
+        assert!(!folder.read(&format!("new/folder/{file}")).is_empty());
+    }
     let json: Value = serde_json::from_str(&folder.read("new/folder/report.json")).unwrap();
     assert_eq!(json["peers"]["rows"][0]["library"], "other");
     let no_peers = |o: &Value| o["what"] == "other libraries";
@@ -253,7 +313,7 @@ fn a_folder_has_it_all() {
 }
 
 #[test]
-fn what_cannot_be_written_or_read_is_told_at_once_and_leaves_nothing() {
+fn unreadable_and_unwritable_files_fail_at_once_and_leave_nothing() {
     let folder = Folder::new();
     folder.write("file", "");
     let torn = folder.write("torn.json", "{\"rows\": [");
@@ -287,7 +347,6 @@ fn what_cannot_be_written_or_read_is_told_at_once_and_leaves_nothing() {
         (["--peers", &empty], "empty.json: no results of peers"),
         (["--peers", &torn], "torn.json: not JSON: EOF"),
     ] {
-        // Without --quick it would take minutes.
         let run = frusta(&[&["report"][..], &args].concat());
         assert_eq!(run.status.code(), Some(2), "{args:?}");
         let error = text(&run.stderr);
@@ -314,9 +373,9 @@ fn every_family_is_verified_a_line_each() {
     let list = text(&frusta(&["verify", "--list"]).stdout);
     let families: Vec<&str> = list.lines().map(|l| l.split(' ').next().unwrap()).collect();
     assert!(families.len() >= 40);
-    let singles = list.lines().filter(|l| l.contains(" f64 f32 ")).count();
+    let with_f32 = list.lines().filter(|l| l.contains(" f64 f32 ")).count();
     let lines: Vec<&str> = table.lines().collect();
-    assert_eq!(lines.len(), 1 + families.len() + singles + 1);
+    assert_eq!(lines.len(), 1 + families.len() + with_f32 + 1);
     for family in families {
         assert!(lines.iter().any(|l| l.starts_with(&format!("{family} "))));
     }
@@ -325,20 +384,20 @@ fn every_family_is_verified_a_line_each() {
     assert!(last.starts_with("all") && last.contains(&format!(" {total} ")));
 }
 
-/// What the command verifies by default: ten million cases, 100,000 a family.
+/// By default the command verifies ten million cases, at least 100,000 a family.
 #[test]
 fn the_default_is_as_many_cases_as_promised() {
     let help = text(&frusta(&["verify", "--help"]).stdout);
     let default = help.split("[default: ").nth(1).unwrap();
     let cases: usize = default.split(']').next().unwrap().parse().unwrap();
     let list = text(&frusta(&["verify", "--list"]).stdout);
-    let singles = list.lines().filter(|l| l.contains(" f64 f32 ")).count();
-    let total = cases * (list.lines().count() + singles);
+    let with_f32 = list.lines().filter(|l| l.contains(" f64 f32 ")).count();
+    let total = cases * (list.lines().count() + with_f32);
     assert!(cases >= 100_000 && total > 10_000_000, "{cases} {total}");
 }
 
 #[test]
-fn threads_do_not_change_what_is_verified() {
+fn threads_do_not_change_the_verification() {
     let with = |threads| {
         let mut args = vec!["verify", "--cases", "300", "--family", "bumps"];
         args.extend(["--family", "thin", "--json", "--threads", threads]);
@@ -403,7 +462,7 @@ fn volumes_are_verified_as_json_too() {
 }
 
 #[test]
-fn wrong_usage_is_told() {
+fn wrong_usage_is_rejected() {
     for (args, reason) in [
         (["verify", "--family", "nowhere"], "no family \"nowhere\""),
         (["verify", "--cases", "0"], "0 is not in 1.."),
@@ -416,6 +475,7 @@ fn wrong_usage_is_told() {
             "no family \"nowhere\"",
         ),
         (["verify", "--seed", "x"], "invalid digit"),
+        (["report", "--no-out", "--out=x"], "cannot be used with"),
     ] {
         let run = frusta(&args);
         assert_eq!(run.status.code(), Some(2), "{args:?}");

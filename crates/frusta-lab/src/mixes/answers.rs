@@ -1,4 +1,4 @@
-//! Before anything is timed: everybody gives the same answers.
+//! Checks, before anything is timed, that all clippers give the same answers.
 
 use frusta::{
     Accuracy, Class, CohenSutherland, CyrusBeck, FaceSet, Frustum, LiangBarsky, LiangBarskyVariant,
@@ -17,7 +17,7 @@ fn decided<T: Real>(clip: &SegmentClip<T>) -> (Class, [bool; 2], [FaceSet; 3]) {
     }
 }
 
-/// Parameters and points as bits, with what is known of them.
+/// Parameters and points as bits, and whether they are inward.
 fn bits<T: Real>(clip: &SegmentClip<T>) -> Option<[([u64; 4], bool); 2]> {
     clip.part.map(|p| {
         [p.entry, p.exit].map(|e| {

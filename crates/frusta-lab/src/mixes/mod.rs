@@ -1,4 +1,4 @@
-//! The frusta that everyday segments are timed with, and the 78 singular samples.
+//! The frusta of the benchmarks' everyday segments, and the 78 singular samples.
 
 pub mod answers;
 mod timed;
@@ -11,8 +11,8 @@ pub use frusta::samples::Mix;
 use frusta::samples::{Placement, Random, Solid, singular_samples};
 use frusta::{Direction, EndRect, Frustum, Pose, Real, Rect, Segment, Shape, Vec3};
 
-/// Segments in one mix: more than branch predictors learn by heart. Of 32768
-/// that are clipped over and over they learn so much that branches look free.
+/// Segments in one mix: more than branch predictors learn by heart. They learn so much of 32,768
+/// that are clipped over and over that branches look free.
 pub const COUNT: usize = 262_144;
 
 /// The frusta, each with the form that its plain coefficients take.
@@ -85,7 +85,7 @@ type Sides = [f64; 2];
 const AHEAD: Sides = [-1.0, 1.0];
 const ASIDE: Sides = [-0.9, 1.1];
 
-/// What the mixes' view is made of.
+/// The measures of the mixes' view.
 struct View {
     /// Distances.
     near: f64,

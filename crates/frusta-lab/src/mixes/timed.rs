@@ -1,4 +1,4 @@
-//! What both benchmarks time, each case with its answers compared already.
+//! The cases that the benchmarks time, their answers compared already.
 
 use super::{
     COUNT, Form, Mix, assert_answers_agree, assert_exact_agree, frustum, samples, wrong_answers,
@@ -22,7 +22,7 @@ pub struct Singular {
     pub place: &'static str,
     pub frustum: Frustum,
     pub segments: Vec<Segment<f64>>,
-    /// How many each plain algorithm gets wrong.
+    /// How many answers of each plain algorithm are wrong.
     pub wrong: [(&'static str, usize); 6],
 }
 

@@ -1,4 +1,4 @@
-//! A clipper as a survey calls it, for who looks at one case closely.
+//! A clipper as a survey calls it, for a close look at one case.
 
 use super::entrant::{AnyClipper, Entrant};
 use super::row::{SurveyAlgorithm, SurveyTier};
@@ -9,7 +9,7 @@ use frusta::math::{NonFinite, Segment};
 /// An algorithm in a tier, made ready for a frustum.
 ///
 /// ```
-/// use frusta::report::{SurveyAlgorithm, SurveyClipper, SurveyTier};
+/// use frusta_lab::{SurveyAlgorithm, SurveyClipper, SurveyTier};
 /// use frusta::samples::Family;
 /// let (frustum, segment) = Family::Shear.case(1, 0);
 /// let clipper = SurveyClipper::new(SurveyAlgorithm::Vw, SurveyTier::PlainF64, &frustum);
@@ -30,8 +30,8 @@ impl SurveyClipper {
         }
     }
 
-    /// Clips, and adds what an exact tier's predicates needed to `counts`; `None` if
-    /// the tier is one of `f32`.
+    /// Clips, and adds the stages that an exact tier's predicates needed to `counts`; `None` if
+    /// the tier is in `f32`.
     pub fn clip_f64(
         &self,
         segment: &Segment<f64>,
@@ -45,7 +45,7 @@ impl SurveyClipper {
         }
     }
 
-    /// The same in `f32`; `None` if the tier is one of `f64`.
+    /// The same in `f32`; `None` if the tier is in `f64`.
     pub fn clip_f32(
         &self,
         segment: &Segment<f32>,

@@ -1,7 +1,6 @@
-//! Who takes part: every algorithm in every tier, all called the same way.
+//! The contestants: every algorithm in every tier, all called the same way.
 //!
-//! A call goes through `dyn`, so that no tier gains by being inlined into a loop
-//! that no program has.
+//! A call goes through `dyn`, so that no tier gains by being inlined into the timing loop.
 
 use super::row::{SurveyAlgorithm, SurveyTier};
 use frusta::clip::{

@@ -1,8 +1,7 @@
-//! A case's answers, held against the truth.
+//! A case's answers, compared with the truth.
 //!
-//! Many clippers say the same of a case, the exact ones all. So the rational
-//! arithmetic for an end is done once for each point that was given, known again
-//! by its bits: nothing is assumed of who agrees with whom.
+//! Many clippers give the same answer to a case, all exact ones do. So the rational arithmetic for
+//! an end is done once for each point, which is recognised by its bits: no agreement is assumed.
 
 use super::entrant::{AnyAlgorithm, Scalar};
 use super::row::SurveyTier;
@@ -13,7 +12,7 @@ use frusta::math::{NonFinite, Real, Segment, Vec3};
 use frusta::oracle::{Gauge, Oracle, OracleClip, OracleEnd, is_mirrored};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-/// One case and what is true of it.
+/// One case and the truth about it.
 pub(super) struct Case<'a, T> {
     number: u64,
     segment: Segment<T>,
@@ -22,7 +21,7 @@ pub(super) struct Case<'a, T> {
     points: Points<'a>,
 }
 
-/// Points that were given for the ends of a case, and how good they are.
+/// Points that were returned for the ends of a case, and their errors.
 struct Points<'a> {
     oracle: &'a Oracle,
     /// The segment's largest coordinate.
@@ -31,7 +30,7 @@ struct Points<'a> {
     known: Vec<Known>,
 }
 
-/// What is known of a point given for an end.
+/// The error of a point returned for an end.
 #[derive(Clone, Copy)]
 struct Known {
     end: usize,
@@ -46,7 +45,7 @@ struct EndError {
     outside: bool,
 }
 
-/// What a clipper does with a case.
+/// A clipper's answers to a case.
 struct Attempt<T> {
     answer: SegmentClip<T>,
     counts: StageCounts,
@@ -159,8 +158,7 @@ impl<'a, T: Scalar> Case<'a, T> {
 }
 
 impl Points<'_> {
-    /// How far a point is from the exact end, by rational arithmetic if nobody gave
-    /// this point before.
+    /// The distance of a point from the exact end, by rational arithmetic if the point is new.
     fn error<T: Real>(&mut self, end: usize, exact: &OracleEnd, point: Vec3<T>) -> EndError {
         let bits = bits(point);
         let found = self.known.iter().find(|k| k.end == end && k.bits == bits);
@@ -174,7 +172,7 @@ impl Points<'_> {
 
     fn measure<T: Real>(&mut self, end: usize, exact: &OracleEnd, point: Vec3<T>) -> EndError {
         let gauge = self.gauges[end].get_or_insert_with(|| Gauge::new::<T>(exact));
-        // What G3 allows for underflow is no error of u times scale.
+        // The allowance of G3 for underflow is not part of an error in u times scale.
         let beyond = (gauge.deviation(point) - T::MIN_SUBNORMAL).max(0.0);
         let finite = |error: f64| error.min(f64::MAX);
         EndError {
@@ -189,8 +187,8 @@ impl Points<'_> {
     }
 }
 
-/// Whether clipping an answer again is asked to change nothing: of all, but for
-/// inward answers that say that an end is not inward.
+/// Whether clipping an answer again must change nothing: true except for inward answers with an end
+/// that is flagged as not inward.
 fn promises_to_stay<T>(answer: &SegmentClip<T>, tier: SurveyTier) -> bool {
     let inward = |part: &Part<T>| part.entry.inward && part.exit.inward;
     !tier.is_inward() || answer.part.as_ref().is_some_and(inward)

@@ -1,19 +1,19 @@
 //! Error against run time: every algorithm in every arithmetic tier on every
-//! family, held against the oracle.
+//! family, compared with the oracle.
 //!
 //! For each case and each clipper: its answer is compared with rational arithmetic,
 //! with the answer for the swapped ends, and with what clipping it again gives.
 //! Blocks of cases that share a frustum are dealt to the threads; counts, errors and
-//! witnesses do not depend on how many there are. Then, with the threads at rest,
+//! witnesses do not depend on the number of threads. Then, with the threads at rest,
 //! the clippers of a family take turns at being timed.
 //!
 //! ```text
-//! clipper  one of them, for who wants it alone
+//! clipper  one of them alone
 //! entrant  the clippers, all called the same way
-//! judge    a case: the truth, and what the answers are worth
+//! judge    a case: the truth, and the errors of the answers
 //! tally    a row's counts
 //! timing   a family's times
-//! row      what is told
+//! row      the findings
 //! table    the same as text
 //! ```
 
@@ -33,7 +33,8 @@ pub use row::{
 pub use table::SurveyTable;
 
 use super::CaseLine;
-use super::turns::Timing;
+use super::turns::{Timing, Turns};
+use super::work::{OnWork, Work};
 use entrant::{Entrant, Scalar};
 use frusta::frustum::Frustum;
 use frusta::oracle::Oracle;
@@ -50,13 +51,13 @@ pub struct SurveyOptions {
     pub families: Vec<Family>,
     /// How many cases of each, in each scalar type.
     pub cases: u64,
-    /// Which cases.
+    /// The seed of all cases.
     pub seed: u64,
-    /// In how many rounds times are taken; of none, all times are 0.
+    /// In how many rounds times are taken; without rounds, all times are 0.
     pub rounds: u32,
     /// How many cases of a family are clipped in a round by each clipper.
     pub timed: u32,
-    /// How many threads find the errors; 0 counts as 1. Times are taken by one.
+    /// How many threads find the errors; 0 counts as 1. One thread takes the times.
     pub threads: usize,
 }
 
@@ -75,43 +76,34 @@ impl Default for SurveyOptions {
 }
 
 impl SurveyOptions {
-    /// How many steps there are to hear of: a case of a scalar type, or a timed case
-    /// of a round, is one.
-    pub fn steps(&self) -> u64 {
+    /// How much work a survey is. A case counts once in each scalar type.
+    pub fn work(&self) -> [(Work, u64); 2] {
         let types = |family: &Family| 1 + u64::from(family.has_f32());
         let cases = self.families.iter().map(types).sum::<u64>() * self.cases;
-        cases + self.families.len() as u64 * self.steps_of_times()
-    }
-
-    fn steps_of_times(&self) -> u64 {
-        u64::from(self.rounds) * u64::from(self.timed)
+        let rounds = self.families.len() * Turns::rounds(self.rounds as usize);
+        [(Work::Cases, cases), (Work::CaseRounds, rounds as u64)]
     }
 }
 
-/// Surveys the families; `on_steps` hears from every thread how many more of
-/// [`SurveyOptions::steps`] are done.
+/// Surveys the families; `on_work` is called with all of [`SurveyOptions::work`], part by part.
 ///
 /// ```
-/// use frusta::report::{SurveyAlgorithm, SurveyOptions, SurveyTier, survey};
+/// use frusta_lab::{SurveyAlgorithm, SurveyOptions, SurveyTier, survey};
 /// use frusta::samples::Family;
 /// let families = vec![Family::HalfLattice];
 /// let options = SurveyOptions { families, cases: 128, rounds: 1, ..SurveyOptions::default() };
-/// let survey = survey(&options, &|_| {});
+/// let survey = survey(&options, &|_, _| {});
 /// assert!(survey.exact_is_right());
 /// let row = survey
 ///     .row(SurveyAlgorithm::SixPlanes, SurveyTier::PlainF64, Family::HalfLattice)
 ///     .unwrap();
 /// assert!(row.wrong_class > 0);
 /// ```
-pub fn survey(options: &SurveyOptions, on_steps: &(dyn Fn(u64) + Sync)) -> Survey {
-    survey_of(&Entrant::all(), options, on_steps)
+pub fn survey(options: &SurveyOptions, on_work: OnWork<'_>) -> Survey {
+    survey_of(&Entrant::all(), options, on_work)
 }
 
-fn survey_of(
-    entrants: &[Entrant],
-    options: &SurveyOptions,
-    on_steps: &(dyn Fn(u64) + Sync),
-) -> Survey {
+fn survey_of(entrants: &[Entrant], options: &SurveyOptions, on_work: OnWork<'_>) -> Survey {
     let mut survey = Survey {
         seed: options.seed,
         cases: options.cases,
@@ -126,10 +118,10 @@ fn survey_of(
             entrants: &entrants,
             family,
             options,
-            on_steps,
+            on_work,
         }
         .count();
-        let on_round = || on_steps(u64::from(options.timed));
+        let on_round = || on_work(Work::CaseRounds, 1);
         let times = timing::measure(&entrants, family, options, on_round);
         for ((entrant, tally), time) in entrants.iter().zip(tallies).zip(times) {
             let witnesses = witnesses(entrant, family, options.seed, &tally);
@@ -145,7 +137,7 @@ struct Answers<'a> {
     entrants: &'a [&'a Entrant],
     family: Family,
     options: &'a SurveyOptions,
-    on_steps: &'a (dyn Fn(u64) + Sync),
+    on_work: OnWork<'a>,
 }
 
 impl Answers<'_> {
@@ -189,7 +181,7 @@ impl Answers<'_> {
             }
         }
         let types = 1 + u64::from(self.family.has_f32());
-        (self.on_steps)(types * (cases.end - cases.start));
+        (self.on_work)(Work::Cases, types * (cases.end - cases.start));
     }
 
     fn case<T: Scalar>(

@@ -1,11 +1,11 @@
-//! What a survey says: a row for each algorithm, tier and family, and the inputs
-//! that were worst.
+//! The findings of a survey: a row for each algorithm, tier and family, and the worst inputs.
 
+use crate::turns::Spread;
 use frusta::samples::Family;
 use std::fmt;
 use std::str::FromStr;
 
-/// With which arithmetic, in which scalar type, and how exact the points are.
+/// Arithmetic, scalar type, and accuracy of the points.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum SurveyTier {
     /// The textbook's algorithm in `f32`.
@@ -109,8 +109,7 @@ impl SurveyAlgorithm {
         SurveyAlgorithm::SixPlanes,
     ];
 
-    /// What a row's time is compared with, in the same family: this algorithm in
-    /// plain `f64`.
+    /// The reference of a row's time, in the same family: this algorithm in plain `f64`.
     pub const REFERENCE: SurveyAlgorithm = SurveyAlgorithm::LiangBarskyTextbook;
 
     /// The algorithm's name, the same as [`SegmentClipper::name`](frusta::SegmentClipper::name)
@@ -140,7 +139,7 @@ impl fmt::Display for SurveyAlgorithm {
 /// [`SurveyRow::refused`], so both are finite.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct SurveyError {
-    /// The largest.
+    /// The largest error.
     pub max: f64,
     /// 99.9 % of the ends are at most this far off.
     pub p999: f64,
@@ -167,9 +166,8 @@ pub struct SurveyRow {
     pub refused: u64,
     /// Nanoseconds a segment: the median over rounds.
     pub ns_median: f64,
-    /// The time divided by the reference's in the same round: the median over
-    /// rounds. Larger is slower.
-    pub time_ratio: f64,
+    /// The time divided by the reference's in the same round. Larger is slower.
+    pub time_ratio: Spread,
     /// Errors in units in the last place of the exact coordinate, fractional.
     pub error_ulp: SurveyError,
     /// Errors in unit roundoffs times the segment's largest coordinate, after the
@@ -177,7 +175,7 @@ pub struct SurveyRow {
     pub error_u_scale: SurveyError,
     /// Cases of the right class with an end that was clipped and is outside of
     /// the frustum, exactly. In inward tiers only ends that are flagged inward count:
-    /// where no representable point near an end is inside, it says so.
+    /// where no representable point near an end is inside, the end is not flagged.
     pub outside: u64,
     /// Cases whose answer is not the mirrored one when the ends are swapped.
     pub asymmetric: u64,
@@ -193,9 +191,8 @@ pub struct SurveyRow {
 impl SurveyRow {
     /// Whether the row is as an exact tier promises: nothing wrong, refused or
     /// asymmetric, and all points within the accuracy's bound (G3: `Fast` 8 u times
-    /// scale, `Nearest` half an ulp, `Inward` 2 ulp). Of `Inward` also nothing that is
-    /// outside or changes when it is clipped again, but for ends flagged as not inward,
-    /// which promise only to be nearest.
+    /// scale, `Nearest` half an ulp, `Inward` 2 ulp). With `Inward`, no end may be outside or
+    /// change when it is clipped again, except ends flagged as not inward, which are only nearest.
     pub fn is_right(&self) -> bool {
         use SurveyTier as Tier;
         let wrong = self.wrong_class + self.wrong_faces + self.refused + self.asymmetric;
@@ -210,7 +207,7 @@ impl SurveyRow {
     }
 }
 
-/// In which way an input is the worst.
+/// The way in which an input is the worst.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum SurveyWorst {
     /// Refused, panicked, or not finite; the first such case.
@@ -226,7 +223,7 @@ pub enum SurveyWorst {
 }
 
 impl SurveyWorst {
-    /// All ways.
+    /// All of them.
     pub const ALL: [SurveyWorst; 5] = [
         SurveyWorst::Refused,
         SurveyWorst::Class,
@@ -250,24 +247,24 @@ pub struct SurveyWitness {
     pub tier: SurveyTier,
     /// The row's family.
     pub family: Family,
-    /// In which way.
+    /// The way in which it is the worst.
     pub worst: SurveyWorst,
-    /// The error; for what is counted, how many such cases the row has.
+    /// The error, or how many such cases the row has.
     pub value: f64,
-    /// The case's number in its family.
+    /// The case's index in its family.
     pub case: u64,
     /// The input as a line that `frusta replay` takes.
     pub line: String,
 }
 
-/// Everything that a survey found.
+/// All findings of a survey.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Survey {
-    /// Which cases.
+    /// The seed of all cases.
     pub seed: u64,
-    /// How many of each family.
+    /// The number of cases of each family.
     pub cases: u64,
-    /// In how many rounds times were taken.
+    /// The number of timed rounds.
     pub rounds: u32,
     /// Families in order, in each the algorithms, in each the tiers; `f32` tiers
     /// only where the family has `f32`.
@@ -297,7 +294,7 @@ impl Survey {
     }
 }
 
-/// A text that names none of the things asked for.
+/// An unknown name.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct UnknownName {
     what: &'static str,

@@ -1,12 +1,13 @@
-//! A survey as text, in lines of at most 100 columns: what the algorithms make of
-//! all families in each tier, and what each family does to the most telling ones.
+//! A survey as text, in lines of at most 100 columns: the algorithms over all families in each
+//! tier, and the most telling ones on each family.
 //!
-//! Thousands of rows are for files. Here counts are summed, errors are the largest,
-//! and times are geometric means over the families, so that none outweighs others.
+//! All rows are in files. Here counts are summed, errors are the largest, and times are geometric
+//! means over the families, so that no family outweighs the others.
 
 use super::row::{Survey, SurveyAlgorithm, SurveyRow, SurveyTier};
+use crate::figures::{RATIO_LEGEND, error, fit, ratio};
 use crate::geometric_mean;
-use crate::paper_table::fit;
+use crate::turns::Spread;
 use frusta::samples::Family;
 use std::fmt;
 
@@ -28,6 +29,10 @@ impl fmt::Display for SurveyTable<'_> {
         )?;
         tiers(f, survey)?;
         f.write_str(TIERS_LEGEND)?;
+        if survey.rows.iter().any(|row| row.error_ulp.max == f64::MAX) {
+            f.write_str(UNBOUNDED_LEGEND)?;
+        }
+        f.write_str(RATIO_LEGEND)?;
         by_family(f, survey, &families)?;
         f.write_str(FAMILIES_LEGEND)
     }
@@ -37,12 +42,18 @@ const TIERS_LEGEND: &str = "
 class, faces  cases with a wrong class; with the right one and a wrong face set or clipped flag
 refused       refused, panicked, or not finite
 outside       share of cases with a clipped end that is outside of the frustum, exactly (inward:
-              and called inside); swapped: whose answer changes when the ends are swapped;
-              again: whose answer changes when it is clipped again (inward: if called inside)
+              and flagged inside); swapped: whose answer changes when the ends are swapped;
+              again: whose answer changes when it is clipped again (inward: if flagged inside)
 ulp, u*max    the largest error of a clipped end of an answer of the right class: in units in the
               last place of the exact coordinate; in roundoffs of the segment's largest coordinate
 ns, times     a segment, and as a multiple of plain textbook Liang-Barsky in f64 on the same cases;
               geometric means over the families
+";
+
+/// Follows where there is one.
+const UNBOUNDED_LEGEND: &str = "\
+*             beyond the range of f64: the exact coordinate is 0 or next to it, so that no number of
+              its units in the last place measures the error
 ";
 
 const FAMILIES_LEGEND: &str = "
@@ -83,7 +94,7 @@ fn tiers(f: &mut fmt::Formatter<'_>, survey: &Survey) -> fmt::Result {
 }
 
 const TIERS_COLUMNS: &str =
-    "  class   faces refused outside swapped   again     ulp   u*max      ns   times";
+    "  class   faces refused outside swapped  again     ulp   u*max      ns    times";
 
 fn tier_line(
     f: &mut fmt::Formatter<'_>,
@@ -95,7 +106,7 @@ fn tier_line(
     let share = |of| percent(count(of), cases);
     writeln!(
         f,
-        "{algorithm:<21}{:>7}{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}",
+        "{algorithm:<21}{:>7}{:>8}{:>8}{:>8}{:>8}{:>7}{:>8}{:>8}{:>8}{:>9}",
         count(|r| r.wrong_class),
         count(|r| r.wrong_faces),
         count(|r| r.refused),
@@ -105,7 +116,7 @@ fn tier_line(
         error(largest(rows, |r| r.error_ulp.max)),
         error(largest(rows, |r| r.error_u_scale.max)),
         fit(mean(rows, |r| r.ns_median), 1, 7),
-        fit(mean(rows, |r| r.time_ratio), 2, 7),
+        ratio(Spread::geometric_mean(rows.iter().map(|r| r.time_ratio)).unwrap_or_default()),
     )
 }
 
@@ -117,9 +128,9 @@ fn by_family(f: &mut fmt::Formatter<'_>, survey: &Survey, families: &[Family]) -
 }
 
 const FAMILIES_COLUMNS_ABOVE: &str =
-    "     plain: wrong     exact:   u*max    ulp   filter   exact         times";
+    "     plain: wrong     exact:   u*max    ulp filter  exact       times";
 const FAMILIES_COLUMNS: &str =
-    "    V/W    L-B planes  wrong    Fast Nearest                  L-B ns plain   exact";
+    "    V/W    L-B planes  wrong    Fast Nearest              L-B ns    plain    exact";
 
 fn family_line(f: &mut fmt::Formatter<'_>, survey: &Survey, family: Family) -> fmt::Result {
     use SurveyAlgorithm::{LiangBarskyTextbook, SixPlanes, Vw};
@@ -136,7 +147,7 @@ fn family_line(f: &mut fmt::Formatter<'_>, survey: &Survey, family: Family) -> f
     let all = |r: &SurveyRow| r.wrong_class + r.wrong_faces + r.refused + r.asymmetric;
     writeln!(
         f,
-        "{family:<18}{:>7}{:>7}{:>7}{:>7}{:>8}{:>8}{:>8}{:>8}{:>8}{:>6}{:>8}",
+        "{family:<18}{:>7}{:>7}{:>7}{:>7}{:>8}{:>7}{:>7}{:>7}{:>7}{:>9}{:>9}",
         text(plain(Vw), &wrong),
         text(plain(LiangBarskyTextbook), &wrong),
         text(plain(SixPlanes), &wrong),
@@ -145,9 +156,9 @@ fn family_line(f: &mut fmt::Formatter<'_>, survey: &Survey, family: Family) -> f
         text(nearest, &|r| error(r.error_ulp.max)),
         text(fast, &|r| percent(r.filter_failures, r.cases)),
         text(fast, &|r| percent(r.exact_stage, r.cases)),
-        text(plain(LiangBarskyTextbook), &|r| fit(r.ns_median, 1, 7)),
-        text(plain(Vw), &|r| fit(r.time_ratio, 2, 6)),
-        text(fast, &|r| fit(r.time_ratio, 2, 7)),
+        text(plain(LiangBarskyTextbook), &|r| fit(r.ns_median, 1, 6)),
+        text(plain(Vw), &|r| ratio(r.time_ratio)),
+        text(fast, &|r| ratio(r.time_ratio)),
     )
 }
 
@@ -172,14 +183,5 @@ fn percent(count: u64, of: u64) -> String {
         p if p < 0.01 => "<.01 %".to_owned(),
         p if p < 10.0 => format!("{p:.2} %"),
         p => format!("{p:.1} %"),
-    }
-}
-
-/// An error in seven columns: with two decimals, or as a power of ten.
-fn error(value: f64) -> String {
-    if value < 1e4 {
-        fit(value, 2, 7)
-    } else {
-        format!("{value:.1e}")
     }
 }

@@ -1,4 +1,4 @@
-//! What is counted of one row, and how threads' counts come together.
+//! The counts of one row, and how the counts of threads are merged.
 //!
 //! Nothing here depends on the order of the cases: sums, first cases by number,
 //! largest errors of which equals go to the first case, and a quantile that is
@@ -8,7 +8,7 @@ use super::row::{SurveyError, SurveyWorst};
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-/// One end in so many may be further off than [`SurveyError::p999`].
+/// One end of this many may be further off than [`SurveyError::p999`].
 const QUANTILE: u64 = 1000;
 
 /// The counts of a row.
@@ -28,7 +28,7 @@ pub(super) struct Tally {
 }
 
 impl Tally {
-    /// For so many cases in all.
+    /// No cases yet, with room for the quantile of this many.
     pub(super) fn new(cases: u64) -> Self {
         Self {
             cases: 0,
@@ -60,7 +60,7 @@ impl Tally {
         self.u_scale.merge(other.u_scale);
     }
 
-    /// The worst case in a way, and how bad it is.
+    /// The worst case in a way, and its value.
     pub(super) fn worst(&self, way: SurveyWorst) -> Option<(u64, f64)> {
         match way {
             SurveyWorst::Refused => self.refused.worst(),

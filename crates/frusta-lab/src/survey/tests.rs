@@ -1,8 +1,8 @@
-//! A survey finds what is wrong with a clipper, says the same with any number of
-//! threads, and fits its table.
+//! A survey finds a clipper's faults, does not depend on the number of threads, and fits its table.
 
 use super::entrant::AnyClipper;
 use super::*;
+use crate::turns::Spread;
 use frusta::clip::{Accuracy, Class, SegmentClip, SegmentClipper, StageCounts, VwProjection};
 use frusta::frustum::{FaceSet, Frustum};
 use frusta::math::{NonFinite, Segment};
@@ -56,7 +56,7 @@ fn found(
     let right = entrant(tier, VwProjection::exact(accuracy));
     let entrants = [right, entrant(tier, Spoilt(accuracy, spoil))];
     let options = options(&[Family::OffAxis], 256);
-    let survey = survey_of(&entrants, &options, &|_| {});
+    let survey = survey_of(&entrants, &options, &|_, _| {});
     assert!(survey.rows[0].is_right(), "{:?}", survey.rows[0]);
     assert!(!survey.rows[1].is_right() && !survey.exact_is_right());
     (survey.rows[1].clone(), survey)
@@ -147,7 +147,7 @@ fn panics_and_numbers_that_are_not_finite_are_refusals() {
     });
     assert!(row.refused > 50);
     assert_eq!(row.wrong_class + row.wrong_faces + row.asymmetric, 0);
-    let numbers = [row.ns_median, row.time_ratio, row.error_ulp.max];
+    let numbers = [row.ns_median, row.time_ratio.median, row.error_ulp.max];
     assert!(numbers.iter().all(|n| n.is_finite()));
     let first = survey
         .witnesses
@@ -164,23 +164,27 @@ fn every_tier_is_there_and_threads_change_nothing() {
             threads,
             ..options(&families, 150)
         };
-        let heard = AtomicU64::new(0);
-        let on_steps = |steps| {
-            heard.fetch_add(steps, Ordering::Relaxed);
+        let done = [const { AtomicU64::new(0) }; 2];
+        let on_work = |work, units| {
+            done[usize::from(work == Work::CaseRounds)].fetch_add(units, Ordering::Relaxed);
         };
-        let mut survey = survey(&options, &on_steps);
-        assert_eq!(heard.into_inner(), options.steps());
+        let mut survey = survey(&options, &on_work);
+        let done = done.map(AtomicU64::into_inner);
+        assert_eq!(
+            options.work(),
+            [(Work::Cases, done[0]), (Work::CaseRounds, done[1])]
+        );
         for row in &mut survey.rows {
-            assert!(row.ns_median > 0.0 && row.time_ratio > 0.0);
-            (row.ns_median, row.time_ratio) = (0.0, 0.0);
+            assert!(row.ns_median > 0.0 && row.time_ratio.median > 0.0);
+            (row.ns_median, row.time_ratio) = (0.0, Spread::default());
         }
         survey
     };
     let (one, three) = (with(1), with(3));
     assert_eq!(one, three);
     assert!(one.exact_is_right());
-    // Nine tiers of six algorithms; five of them without f32.
-    assert_eq!(one.rows.len(), 6 * (9 + 5 + 9));
+    // Eight tiers of six algorithms; four of them without f32.
+    assert_eq!(one.rows.len(), 6 * (8 + 4 + 8));
     assert!(one.rows.iter().all(|row| row.cases == 150));
     for algorithm in SurveyAlgorithm::ALL {
         let row = |tier| one.row(algorithm, tier, Family::Thin).unwrap();
@@ -199,17 +203,17 @@ fn the_reference_is_one_and_no_rounds_are_no_times() {
     let reference = |survey: &Survey| {
         let name = SurveyAlgorithm::REFERENCE;
         let row = survey.row(name, SurveyTier::PlainF64, Family::Points);
-        row.unwrap().time_ratio
+        row.unwrap().time_ratio.median
     };
-    assert_eq!(reference(&survey(&options, &|_| {})), 1.0);
+    assert_eq!(reference(&survey(&options, &|_, _| {})), 1.0);
     options.rounds = 0;
-    let none = survey(&options, &|_| {});
+    let none = survey(&options, &|_, _| {});
     assert!(none.rows.iter().all(|row| row.ns_median == 0.0));
 }
 
 #[test]
 fn what_spoils_an_exact_row() {
-    let survey = survey(&options(&[Family::OffAxis], 64), &|_| {});
+    let survey = survey(&options(&[Family::OffAxis], 64), &|_, _| {});
     let spoilt = |tier, spoil: fn(&mut SurveyRow)| {
         let mut survey = survey.clone();
         let row = survey.rows.iter_mut().find(|row| row.tier == tier);
@@ -234,7 +238,7 @@ fn what_spoils_an_exact_row() {
 fn the_tables_fit_a_terminal() {
     let mut survey = survey(
         &options(&[Family::CrossingNearEnds, Family::Huge], 64),
-        &|_| {},
+        &|_, _| {},
     );
     let fits = |survey: &Survey| {
         let text = SurveyTable(survey).to_string();
@@ -262,7 +266,7 @@ fn the_tables_fit_a_terminal() {
         (row.outside, row.asymmetric) = (1, 1 << 16);
         row.error_ulp.max = f64::MAX;
         row.error_u_scale.max = 9_999.0;
-        (row.ns_median, row.time_ratio) = (1e7, 1e6);
+        (row.ns_median, row.time_ratio) = (1e7, Spread::new(vec![1e5, 1e6]));
     }
     fits(&survey);
 }

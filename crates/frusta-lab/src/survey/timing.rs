@@ -1,4 +1,4 @@
-//! How long the clippers take on a family.
+//! The clippers' run times on a family.
 //!
 //! All clippers of a family take turns (`turns`), and go through the same list:
 //! cases of several frusta, in an order that no branch predictor knows. An answer
@@ -22,8 +22,8 @@ const SCENES: u64 = 16;
 /// What is clipped.
 struct Cases {
     frusta: Vec<Frustum>,
-    single: Vec<(usize, Segment<f32>)>,
-    double: Vec<(usize, Segment<f64>)>,
+    in_f32: Vec<(usize, Segment<f32>)>,
+    in_f64: Vec<(usize, Segment<f64>)>,
 }
 
 impl Cases {
@@ -39,37 +39,37 @@ impl Cases {
                 n % SCENES * BLOCK + n / SCENES % BLOCK,
             )
         };
-        let single = |n: &u64| {
+        let in_f32 = |n: &u64| {
             let (scene, case) = place(*n);
             (scene, family.segment(&scenes[scene], seed, case))
         };
-        let double = |n: &u64| {
+        let in_f64 = |n: &u64| {
             let (scene, case) = place(*n);
             (scene, family.segment(&scenes[scene], seed, case))
         };
         Self {
             frusta: scenes.iter().map(|s| s.frustum().clone()).collect(),
-            single: if family.has_f32() {
-                order.iter().map(single).collect()
+            in_f32: if family.has_f32() {
+                order.iter().map(in_f32).collect()
             } else {
                 Vec::new()
             },
-            double: order.iter().map(double).collect(),
+            in_f64: order.iter().map(in_f64).collect(),
         }
     }
 
     /// Nanoseconds a segment, of one pass.
     fn pass(&self, entrant: &Entrant) -> f64 {
         let time = AssertUnwindSafe(|| match &entrant.clipper {
-            AnyClipper::Single(clipper) => pass(clipper.as_ref(), &self.frusta, &self.single),
-            AnyClipper::Double(clipper) => pass(clipper.as_ref(), &self.frusta, &self.double),
+            AnyClipper::Single(clipper) => pass(clipper.as_ref(), &self.frusta, &self.in_f32),
+            AnyClipper::Double(clipper) => pass(clipper.as_ref(), &self.frusta, &self.in_f64),
         });
-        // Who panics has been counted as refusing; there is no time to tell.
+        // A panic was counted as a refusal; it has no time.
         catch_unwind(time).unwrap_or(0.0)
     }
 }
 
-/// The times of these clippers, in their order; `on_round` hears after each round.
+/// The times of these clippers, in their order; `on_round` is called after each round.
 pub(super) fn measure(
     entrants: &[&Entrant],
     family: Family,
@@ -78,12 +78,10 @@ pub(super) fn measure(
 ) -> Vec<Timing> {
     let cases = Cases::new(family, options);
     let reference = entrants.iter().position(|e| e.is_reference()).unwrap_or(0);
-    let mut turns = Turns::new(entrants.len(), reference);
-    for _ in 0..options.rounds {
-        turns.round(|i| cases.pass(entrants[i]));
-        on_round();
-    }
-    turns.medians()
+    let mut turns = Turns::new(entrants.len());
+    let time = |i: usize| cases.pass(entrants[i]);
+    turns.take(options.rounds as usize, time, on_round);
+    turns.timings(reference)
 }
 
 #[inline(never)]

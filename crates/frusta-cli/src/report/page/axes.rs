@@ -5,13 +5,13 @@
 pub(super) struct Decades {
     low: f64,
     high: f64,
-    /// Where the lowest is, and where the highest.
+    /// The positions of the lowest and the highest value.
     ends: [f64; 2],
 }
 
 impl Decades {
-    /// Whole decades around these values and these two at least; only positive finite
-    /// values count.
+    /// Whole decades that contain these values and at least the range `least`; only positive
+    /// finite values count.
     pub(super) fn around(
         values: impl Iterator<Item = f64>,
         least: [f64; 2],
@@ -29,21 +29,21 @@ impl Decades {
         }
     }
 
-    /// Not whole decades.
+    /// Exactly this range.
     pub(super) fn between(low: f64, high: f64, ends: [f64; 2]) -> Self {
         let (low, high) = (low.log10(), high.log10());
         Self { low, high, ends }
     }
 
-    /// Where a value is; what is beyond the ends is at them.
+    /// The position of a value; values beyond the ends are placed at them.
     pub(super) fn place(&self, value: f64) -> f64 {
         let share = (value.log10() - self.low) / (self.high - self.low);
         let [from, to] = self.ends;
-        // Zero has no place but the lowest, and NaN none but that either.
+        // Zero and NaN are placed at the lowest value.
         from + (to - from) * share.clamp(0.0, 1.0).max(0.0)
     }
 
-    /// Powers of ten, not more than a number of them.
+    /// Powers of ten, at most this many.
     pub(super) fn ticks(&self, most: usize) -> Vec<f64> {
         let count = (self.high.floor() - self.low.ceil()) as usize + 1;
         let step = count.div_ceil(most.max(1)).max(1);

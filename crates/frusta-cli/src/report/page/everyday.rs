@@ -1,8 +1,8 @@
 //! Run times on everyday segments.
 
-use super::words::{count, figure};
+use super::words::{count, figure, median, quartiles};
 use frusta::samples::Mix;
-use frusta_lab::{Everyday, EverydayRow, Tier};
+use frusta_lab::{Everyday, EverydayRow, Spread, Tier};
 use maud::{Markup, html};
 
 /// The section.
@@ -13,7 +13,7 @@ pub(super) fn section(everyday: &Everyday) -> Markup {
         p {
             "The families of this report are hard on purpose. These are segments as programs have them: "
             (of) " of each of four mixes, clipped by a camera\'s frustum, in its own frame and in a world \
-             where it is turned and moved. Next to nothing is singular here: plain arithmetic got "
+             where it is turned and moved. Hardly anything is singular here: plain arithmetic got "
             b { (count(everyday.wrong(Tier::Plain) as u64)) } " classes or face sets wrong, exact arithmetic "
             b { (count(everyday.wrong(Tier::Exact) as u64)) } "."
         }
@@ -25,35 +25,19 @@ pub(super) fn section(everyday: &Everyday) -> Markup {
             "How many times as fast as textbook Liang-Barsky in plain arithmetic, one segment a call: larger \
              is faster. All in f64; exact is with Fast. Slices: " (count(Everyday::SLICE as u64))
             " segments a call, into a buffer that is used again. Medians over " (everyday.rounds)
-            " rounds, in which all took turns; point at a number for its nanoseconds."
+            " rounds, in which all took turns, and their quartiles; ~ marks a ratio whose quartiles \
+             are more than 25 % off. Point at a number for its nanoseconds."
         }
         @if everyday.flatters_branches() {
             p {
-                "So few segments, clipped over and over, are learnt by branch predictors: these times flatter \
+                "Branch predictors learn so few segments, clipped over and over: these times flatter \
                  clippers that branch, such as Liang-Barsky. " code { "--everyday 65536" } " is enough."
             }
         }
     }
 }
 
-/// The headline's number.
-pub(super) fn number(everyday: &Everyday) -> Markup {
-    let speed = |slices| everyday.speed("vw", Tier::Exact, slices);
-    html! {
-        @if let (Some(single), Some(slices)) = (speed(false), speed(true)) {
-            div.number {
-                b { (figure(single)) " times" }
-                span {
-                    "as fast as textbook Liang-Barsky in plain f64 is exact V/W on "
-                    a href="#everyday" { "everyday segments" } ", and " b.inline { (figure(slices)) " times" }
-                    " over slices (geometric means)."
-                }
-            }
-        }
-    }
-}
-
-/// A row a mix and place; not to be sorted, since the last row is the mean.
+/// A row for each mix and place. The table cannot be sorted, since the last row is the mean.
 fn table(everyday: &Everyday) -> Markup {
     let Some([reference, clippers @ ..]) = everyday.by_mix().next() else {
         return html! {};
@@ -104,8 +88,14 @@ fn line(rows: &[EverydayRow]) -> Markup {
     }
 }
 
-/// A clipper's speed; the exact one's stand out.
-fn cell(row: &EverydayRow, speed: Option<f64>, title: &str) -> Markup {
-    let text = speed.map_or_else(|| "-".to_owned(), figure);
-    html! { td.own[row.tier == Tier::Exact] title=(title) { (text) } }
+/// A clipper's speed; those of the exact clippers stand out.
+fn cell(row: &EverydayRow, speed: Option<Spread>, title: &str) -> Markup {
+    html! {
+        td.own[row.tier == Tier::Exact] title=(title) {
+            @match speed {
+                Some(speed) => { (median(speed)) " " span.soft { "[" (quartiles(speed)) "]" } }
+                None => "-",
+            }
+        }
+    }
 }

@@ -1,4 +1,4 @@
-//! Marks in panels: an algorithm is a shape, a tier is a colour; what is in `f32` is
+//! Marks in charts: a shape for each algorithm, a colour for each kind of tier; tiers in `f32` are
 //! hollow.
 
 use frusta_lab::{SurveyAlgorithm, SurveyTier};
@@ -13,7 +13,7 @@ pub(super) fn colour(tier: SurveyTier) -> &'static str {
     }
 }
 
-/// A mark at a place, with a text that is shown when it is pointed at.
+/// A mark at a position, with a text that is shown when it is pointed at.
 pub(super) fn mark(
     algorithm: SurveyAlgorithm,
     tier: SurveyTier,
@@ -45,7 +45,7 @@ pub(super) fn mark(
     format!("<path class=\"{class}\" d=\"{path}Z\">{title}</path>\n")
 }
 
-/// The outlines of the others than the circle, of about its area.
+/// The outlines other than the circle, with about its area.
 fn shape(algorithm: SurveyAlgorithm) -> &'static [[f64; 2]] {
     match algorithm {
         SurveyAlgorithm::Vw => &[],

@@ -1,26 +1,30 @@
-//! `report.html` and the panels: one page that needs nothing else, not even its script.
+//! `report.html` and the panels: one page that needs no other file, and not even its script.
 //!
 //! ```text
-//! words    numbers as the page says them      totals   sums over families
-//! axes     logarithmic axes                   marks    shapes and colours
-//! panel    a family's panel, the overview     worst    which cases are drawn
-//! everyday times on everyday segments         peers    other libraries
-//! volumes  boxes, balls and batches
-//! tables   most tables                        style    the style sheet, the script
-//! text     what stands between them
+//! text      the page from top to bottom        style     the style sheet, the script
+//! chart     error against run time, the first  overview  thumbnails of all panels
+//! panel     a family's panel                   svg       the elements of all three
+//! axes      logarithmic axes                   marks     shapes and colours
+//! words     numbers as text                    totals    sums over families
+//! tables    most tables                        worst     the cases that are drawn
+//! everyday  times on everyday segments         volumes   boxes, spheres and batches
+//! peers     other libraries
 //! ```
 
 mod axes;
+mod chart;
 mod everyday;
 mod marks;
+mod overview;
 mod panel;
 mod peers;
 mod style;
+mod svg;
 mod tables;
 mod text;
 mod totals;
 mod volumes;
-mod words;
+pub(super) mod words;
 mod worst;
 
 #[cfg(test)]
@@ -44,7 +48,7 @@ pub(crate) fn panel(page: &Page<'_>, family: Family) -> String {
     panel::file(&rows)
 }
 
-/// Whether there is something to show of a file of other libraries' results.
+/// Whether a file of other libraries' results has anything that can be shown.
 pub(crate) fn shows(peers: &Value) -> bool {
     peers::rows(peers).is_some()
 }

@@ -1,8 +1,8 @@
 //! Other libraries' results, as their file has them: its headlines, the wrong answers
 //! on the half-lattice, inputs that end badly, then all of its rows.
 //!
-//! The file is anybody's: whatever it says is shown as text, and what is not there or
-//! of another kind than it should be is left out or shown as it stands.
+//! The file may come from anywhere: its contents are shown as text; what is missing is left out,
+//! and values of an unexpected kind are shown as they are.
 
 use super::tables::sortable;
 use super::words::{count, figure};
@@ -10,10 +10,10 @@ use maud::{Markup, html};
 use serde_json::Value;
 use std::collections::BTreeMap;
 
-/// The input on which wrong answers are looked for first.
+/// The input whose wrong answers are shown first.
 const LATTICE: &str = "half-lattice";
 
-/// The columns of the half-lattice's wrong answers; functions are put together.
+/// The columns of the half-lattice's wrong answers; functions that are alike share a row.
 const COUNTS: [&str; 10] = [
     "job",
     "library",
@@ -28,7 +28,7 @@ const COUNTS: [&str; 10] = [
 ];
 
 /// The columns of a job's rows: wrong answers before times, so that they are seen.
-const ROWS: [&str; 19] = [
+const ROWS: [&str; 20] = [
     "library",
     "version",
     "function",
@@ -44,28 +44,29 @@ const ROWS: [&str; 19] = [
     "ns_median",
     "time_ratio",
     "time_ratio_slices",
+    "time_ratio_boxes",
     "time_ratio_f32",
     "time_ratio_slices_f32",
     "max_error_u_scale",
     "note",
 ];
 
-/// Columns that ought to be zero.
+/// Columns that should be zero.
 const FAULTS: [&str; 5] = ["wrong", "phantom", "missed", "misplaced", "refused"];
 
-/// Of single inputs that end badly.
+/// The columns of single inputs that end badly.
 const FACTS: [&str; 6] = ["library", "version", "what", "input", "result", "ours"];
 
-/// Of headlines that are no table.
+/// The columns of headlines that are shown as a list.
 const HEADLINES: [&str; 3] = ["what", "ratio", "least"];
 
-/// What stands in a headline between a peer and what it is compared with.
+/// Separates, in a headline, a peer from what it is compared with.
 const OVER: &str = " / ";
 
-/// With more than these to compare with, headlines are a list.
-const MOST_COLUMNS: usize = 6;
+/// With more columns than these, headlines are shown as a list.
+const MOST_COLUMNS: usize = 8;
 
-/// Texts that are longer are broken into lines.
+/// Longer texts are broken into lines.
 const LONGEST_LINE: usize = 32;
 
 /// The section; without a file, how to get one.
@@ -77,18 +78,18 @@ pub(super) fn section(peers: Option<&Value>) -> Markup {
             None => {
                 p {
                     "This report has no results of them. They are measured in a workspace of their own, \
-                     so that nobody's build pays for it, and shown here if their file is given:"
+                     so that no build of frusta depends on them, and shown here if their file is given:"
                 }
                 pre {
                     "cargo run --release --manifest-path benches/peers/Cargo.toml -- --out peers.json\n"
-                    "frusta report --peers peers.json --out report"
+                    "frusta report --peers peers.json"
                 }
             }
         }
     }
 }
 
-/// The file's rows, if there is something to show of them.
+/// The file's rows, if any of them can be shown.
 pub(super) fn rows(peers: &Value) -> Option<&[Value]> {
     let rows = peers.get("rows")?.as_array()?;
     let known = |key: &&str| rows.iter().any(|row| !row[*key].is_null());
@@ -98,23 +99,24 @@ pub(super) fn rows(peers: &Value) -> Option<&[Value]> {
 fn results(peers: &Value, rows: &[Value]) -> Markup {
     html! {
         p {
-            "Other crates at the same jobs on the same inputs, their answers held against the same \
+            "Other crates at the same jobs on the same inputs, their answers compared with the same \
              rational arithmetic. A library that promises less is not wrong by its own measure; its \
-             notes say what it does promise."
+             notes say what it promises."
         }
         @if let Some(table) = headlines(peers) {
             h3 { "Run times" }
             (table)
             p.soft {
-                "How many times as long as exact-class V/W they take: the geometric mean over the everyday \
-                 mixes and, in brackets, the least. Above 1 is slower than frusta. " (measured(peers))
+                "Their time as a multiple of exact-class V/W's, or of the function of frusta that heads the \
+                 column: the geometric mean over the everyday mixes and, in brackets, the least. Above 1 is \
+                 slower than frusta. " (measured(peers))
             }
         }
         @if let Some(table) = lattice(rows) {
             h3 { "Wrong answers on the half-lattice" }
             p {
                 "Ends on half-integer points around small integer sets, where most cases touch something \
-                 and every number is exact in f32. Phantom: a hit where there is nothing. Missed: the \
+                 and every coordinate is exact in f32. Phantom: a hit where there is nothing. Missed: the \
                  opposite. Misplaced: an end in a wrong place. Outside: an end that is not in the set by a \
                  rounding, which is not called wrong."
             }
@@ -127,7 +129,8 @@ fn results(peers: &Value, rows: &[Value]) -> Markup {
         h3 { "All of it, job by job" }
         p.soft {
             "Ratios are to exact-class V/W in f64, one segment a call; slices, f32: to the same over \
-             slices, in f32. Larger is slower; a dash is where there is nothing to tell."
+             slices, in f32. For boxes: to one call of Culler::classify a box; slices: to the list of a \
+             set; plain slice: to the list of a plain slice. Larger is slower; a dash stands for no value."
         }
         @for (job, rows) in grouped(rows.iter().map(|row| (text(&row["job"]), row))) {
             details {
@@ -255,10 +258,11 @@ fn heading(key: &str) -> &str {
         "ns_median" => "ns",
         "time_ratio" => "ratio",
         "time_ratio_slices" => "slices",
+        "time_ratio_boxes" => "plain slice",
         "time_ratio_f32" => "f32",
         "time_ratio_slices_f32" => "slices f32",
         "max_error_u_scale" => "max u·scale",
-        "ours" => "frusta says",
+        "ours" => "frusta's answer",
         other => other,
     }
 }

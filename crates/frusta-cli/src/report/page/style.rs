@@ -1,5 +1,4 @@
-//! What the page and its panels look like, in light and in dark, and the page's
-//! little script.
+//! The style of the page and its panels, in light and in dark, and the page's script.
 
 /// Colours by name. The tiers' hues are of Okabe and Ito's set, which stay apart for
 /// every common kind of colour blindness.
@@ -12,10 +11,10 @@ pub(super) const COLOURS: &str = "\
 --nearest:#2fc29a;--inward:#9fd8ff}}
 ";
 
-/// Of panels; a panel's file has it inside, the page once for all.
+/// Panels; a panel's file contains it, the page has it once for all.
 pub(super) const PANELS: &str = "\
 svg.panel{font-family:'DejaVu Sans',Verdana,sans-serif;background:var(--paper)}
-.panel text{fill:var(--ink)}.panel .soft{fill:var(--soft)}
+.panel text{fill:var(--ink)}.panel .soft{fill:var(--soft)}.panel .bold{font-weight:bold}
 .panel .grid{stroke:var(--faint);stroke-width:1}.panel .rail{fill:var(--faint);opacity:.45}
 .panel .frame{fill:none;stroke:var(--soft);stroke-width:1}
 .panel .bound{stroke:var(--soft);stroke-width:1;stroke-dasharray:5 4}
@@ -26,7 +25,7 @@ svg.panel{font-family:'DejaVu Sans',Verdana,sans-serif;background:var(--paper)}
 .nearest{color:var(--nearest)}.inward{color:var(--inward)}.any .plain{color:var(--soft)}
 ";
 
-/// Of the page alone.
+/// The page alone.
 pub(super) const PAGE: &str = "\
 *{box-sizing:border-box}
 body{margin:0;background:var(--page);color:var(--ink);font:16px/1.55 system-ui,'DejaVu Sans',sans-serif}
@@ -36,11 +35,7 @@ h3{margin:1.6em 0 .4em;font-size:1.1rem}p,li{max-width:46rem}a{color:var(--fast)
 code,pre{font:13px/1.45 'DejaVu Sans Mono',ui-monospace,monospace}
 pre{background:var(--paper);border:1px solid var(--faint);border-radius:6px;padding:.7em .9em;\
 overflow-x:auto;white-space:pre-wrap;overflow-wrap:anywhere}
-.lead{font-size:1.15rem}.soft{color:var(--soft)}
-.numbers{display:grid;grid-template-columns:repeat(auto-fit,minmax(200px,1fr));gap:1rem;margin:1.6rem 0}
-.number{background:var(--paper);border:1px solid var(--faint);border-radius:8px;padding:1rem 1.1rem}
-.number b{display:block;font-size:1.8rem;line-height:1.2}.number span{color:var(--soft);font-size:.92rem}
-.number b.inline{display:inline;font-size:inherit}
+.lead{font-size:1.15rem}.answer li{font-size:1.1rem;margin:.35em 0}td .soft{font-weight:400}.soft{color:var(--soft)}
 .panels{display:grid;grid-template-columns:repeat(auto-fill,minmax(min(100%,500px),1fr));gap:1rem}
 figure{margin:0;background:var(--paper);border:1px solid var(--faint);border-radius:8px;padding:.6rem;\
 min-width:0}

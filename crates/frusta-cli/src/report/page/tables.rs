@@ -1,11 +1,11 @@
 //! The page's tables.
 
 use super::totals::Total;
-use super::words::{count, figure, percent};
-use frusta_lab::{PaperTable, Survey, SurveyAlgorithm, SurveyRow, SurveyTier, Tier};
+use super::words::{count, figure, median, percent, quartiles};
+use frusta_lab::{PaperTable, Spread, Survey, SurveyAlgorithm, SurveyRow, SurveyTier, Tier};
 use maud::{Markup, html};
 
-/// A table that a click sorts.
+/// A table that a click on a heading sorts.
 pub(super) fn sortable(heads: &[(&str, &str)], rows: &Markup) -> Markup {
     html! {
         div.scroll {
@@ -17,15 +17,26 @@ pub(super) fn sortable(heads: &[(&str, &str)], rows: &Markup) -> Markup {
     }
 }
 
-/// A number that should be 0.
+/// A count of faults, which should be 0.
 fn wrong(n: u64, of: u64) -> Markup {
     let share = n as f64 / of.max(1) as f64;
     html! { td.bad[n > 0] data-v=(n) title=(percent(share)) { (count(n)) } }
 }
 
-/// A number that is none of a fault.
+/// A number that counts no fault.
 fn cell(value: f64) -> Markup {
     html! { td data-v=(value) { (figure(value)) } }
+}
+
+/// A ratio of times with its quartiles.
+pub(super) fn ratio(spread: Spread) -> Markup {
+    html! {
+        td data-v=(spread.median) {
+            @if spread.median > 0.0 {
+                (median(spread)) " " span.soft { "[" (quartiles(spread)) "]" }
+            } @else { "-" }
+        }
+    }
 }
 
 /// The columns of sums.
@@ -56,7 +67,7 @@ fn sums(t: &Total) -> Markup {
         (share(t.asymmetric))
         (share(t.non_idempotent))
         (cell(t.max_u_scale))
-        (cell(t.time_ratio.unwrap_or(0.0)))
+        (ratio(t.time_ratio.unwrap_or_default()))
         (share(t.filter_failures))
         (share(t.exact_stage))
     }
@@ -88,7 +99,7 @@ pub(super) fn totals(survey: &Survey) -> Markup {
     sortable(&heads, &rows)
 }
 
-/// A family in full.
+/// All rows of a family.
 pub(super) fn family(rows: &[&SurveyRow]) -> Markup {
     let heads = [
         ("algorithm", "t"),
@@ -117,7 +128,7 @@ pub(super) fn family(rows: &[&SurveyRow]) -> Markup {
                 (wrong(r.wrong_faces, r.cases))
                 (wrong(r.refused, r.cases))
                 (cell(r.ns_median))
-                (cell(r.time_ratio))
+                (ratio(r.time_ratio))
                 (cell(r.error_ulp.max))
                 (cell(r.error_ulp.p999))
                 (cell(r.error_u_scale.max))
@@ -156,8 +167,8 @@ pub(super) fn paper(table: &PaperTable) -> Markup {
                 td.t { (row.tier.name()) }
                 td.t { (row.scalar) }
                 td { @if let Some(paper) = row.paper { (format!("{paper:.4}")) } }
-                td data-v=(row.in_order.ratio) { (format!("{:.3}", row.in_order.ratio)) }
-                td data-v=(row.shuffled.ratio) { (format!("{:.3}", row.shuffled.ratio)) }
+                (ratio(row.in_order.ratio))
+                (ratio(row.shuffled.ratio))
                 (cell(row.shuffled.nanoseconds))
                 td.bad[standard.right_sets < standard.samples] { (standard.right_sets) }
                 @for score in [stretched, turned, rotated] {
@@ -173,7 +184,7 @@ pub(super) fn paper(table: &PaperTable) -> Markup {
 pub(super) fn proportion(table: &PaperTable) -> Option<String> {
     let ratio = |name: &str| {
         let row = table.row(name, Tier::Plain, "f64")?;
-        Some(format!("{:.0}", 4243.0 * row.in_order.ratio))
+        Some(format!("{:.0}", 4243.0 * row.in_order.ratio.median))
     };
     let all = ["liang-barsky-textbook", "six-planes", "vw"].map(ratio);
     let all: Option<Vec<String>> = all.into_iter().collect();

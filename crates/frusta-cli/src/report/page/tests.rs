@@ -1,13 +1,13 @@
-//! The page and the panels: well-formed, whole, and safe against what files say.
+//! The page and the panels: well-formed, complete, and safe against the contents of files.
 
 use super::*;
-use crate::report::Measured;
 use crate::report::machine::Machine;
 use crate::report::omitted::{Omission, omissions};
+use crate::report::{Measured, answer};
 use frusta::samples::{Family, Mix};
 use frusta_lab::{
-    SurveyAlgorithm, SurveyOptions, SurveyTier, Tier, VolumePlan, everyday, paper_table, survey,
-    volumes,
+    Spread, SurveyAlgorithm, SurveyOptions, SurveyTier, Tier, VolumePlan, everyday, paper_table,
+    survey, volumes,
 };
 use resvg::usvg::roxmltree::{Document, Node};
 use serde_json::{Value, json};
@@ -36,9 +36,9 @@ fn measure() -> Measured {
         rounds: 1,
     };
     Measured {
-        survey: survey(&options, &|_| {}),
+        survey: survey(&options, &|_, _| {}),
         everyday: everyday(300, 1, || {}),
-        volumes: volumes(&plan, &|_| {}),
+        volumes: volumes(&plan, &|_, _| {}),
         paper: paper_table(1, || {}),
     }
 }
@@ -71,7 +71,7 @@ fn closed(html: &str) -> String {
     xml
 }
 
-/// No number of a picture is none.
+/// All numbers of a picture are finite.
 fn assert_finite(document: &Document<'_>, name: &str) {
     for node in document.descendants().filter(Node::is_element) {
         if ![
@@ -123,7 +123,7 @@ fn the_page_is_whole_and_well_formed() {
 }
 
 #[test]
-fn what_others_say_is_escaped() {
+fn contents_of_other_files_are_escaped() {
     let measured = measured();
     let omitted = [Omission {
         what: "<b>".to_owned(),
@@ -186,8 +186,8 @@ fn peers() -> Value {
             "phantom": 0, "missed": missed, "refused": 0, "ns_median": 4.5, "time_ratio": 2.0,
         })
     };
-    let mut untold = row("box", "other", "times only", "half-lattice", 0);
-    untold["cases"] = Value::Null;
+    let mut unjudged = row("box", "other", "times only", "half-lattice", 0);
+    unjudged["cases"] = Value::Null;
     json!({
         "headlines": [
             {"what": "box: other / ours, f64", "ratio": 2.5, "least": 1.25},
@@ -198,7 +198,7 @@ fn peers() -> Value {
             row("box", "frusta", "exact", "half-lattice", 0),
             row("box", "frusta", "exact, slices", "half-lattice", 0),
             row("box", "other", "clip", "half-lattice", 7),
-            untold,
+            unjudged,
             row("box", "other", "clip", "uniform", 0),
             row("quad", "third", "clip", "half-lattice", 0),
         ],
@@ -266,22 +266,26 @@ fn headlines_that_are_no_table_are_a_list() {
 }
 
 #[test]
-fn everyday_segments_are_told_with_what_is_wrong_and_what_flatters() {
+fn everyday_segments_show_wrong_answers_and_what_flatters() {
     let mut measured = measured();
     for row in &mut measured.everyday.rows {
         let exact = row.algorithm == "vw" && row.tier == Tier::Exact;
-        row.timing.ratio = match (exact, row.slices) {
+        row.timing.ratio = Spread::new(vec![match (exact, row.slices) {
             (true, false) => 0.5,
             (true, true) => 0.125,
             _ => 1.0,
-        };
+        }]);
     }
     let html = page(&measured, None, &[]);
-    assert!(html.contains("<b>2.00 times</b>") && html.contains(">8.00 times</b> over slices"));
+    let sentence = "takes 0.50 times [0.50 to 0.50] the time of textbook Liang-Barsky in plain f64 with \
+                    one call a segment, and 0.12 times [0.12 to 0.12] over slices";
+    assert!(html.contains(sentence));
     assert!(html.contains("wrong, exact arithmetic <b>0</b>") && html.contains("flatter clippers"));
     let rows = texts(&html, "tr");
     let mean = rows.iter().find(|r| r[0] == "geometric mean").unwrap();
-    assert_eq!(mean[1..], ["1.00", "1.00", "2.00", "1.00", "1.00", "8.00"]);
+    let speeds: Vec<&String> = mean[1..].iter().step_by(2).collect();
+    assert_eq!(speeds, ["1.00", "1.00", "2.00", "1.00", "1.00", "8.00"]);
+    assert_eq!(mean[6], "[2.00 to 2.00]");
     for mix in Mix::ALL {
         let of_mix = |r: &&Vec<String>| r.get(1).is_some_and(|name| name == mix.name());
         assert_eq!(rows.iter().filter(of_mix).count(), 2, "{mix}");
@@ -338,12 +342,16 @@ fn extreme_rows_have_finite_places() {
     ];
     for (i, row) in measured.survey.rows.iter_mut().enumerate() {
         row.error_u_scale.max = values[i % 7];
-        row.time_ratio = values[i / 7 % 7];
+        row.time_ratio = Spread {
+            lower: values[i % 7],
+            median: values[i / 7 % 7],
+            upper: values[i % 5],
+        };
         row.ns_median = values[i / 49 % 7];
         row.wrong_class = [0, 1, row.cases][i % 3];
     }
     for (i, row) in measured.everyday.rows.iter_mut().enumerate() {
-        row.timing.ratio = values[i % 7];
+        row.timing.ratio = Spread::new(vec![values[i % 7]]);
         row.timing.nanoseconds = values[i / 7 % 7];
     }
     let html = page(&measured, None, &[]);
@@ -371,4 +379,73 @@ fn sums_are_sums() {
     assert_eq!(exact.wrong(), 0);
     let chosen = worst::choose(&survey);
     assert!((6..=20).contains(&chosen.len()), "{}", chosen.len());
+}
+
+#[test]
+fn the_chart_comes_first_then_the_answer_the_papers_table_and_the_panels() {
+    let measured = measured();
+    let html = page(&measured, None, &[]);
+    let places = [
+        "id=\"chart\"",
+        "id=\"answer\"",
+        "id=\"paper\"",
+        "id=\"panels\"",
+    ];
+    let places = places.map(|id| html.find(id).expect(id));
+    assert!(places.is_sorted(), "{places:?}");
+    let chart = &html[places[0]..places[1]];
+    for part in [
+        "nanoseconds a segment (logarithmic",
+        "largest error of the others, u·scale",
+        "wrong answers",
+        "Colour: arithmetic",
+        "Shape: algorithm",
+        "unit roundoff",
+        "projection reduction",
+    ] {
+        assert!(chart.contains(part), "{part:?} is not at the first chart");
+    }
+    for sentence in answer::sentences(&measured) {
+        assert!(html[places[1]..places[2]].contains(&sentence), "{sentence}");
+    }
+    assert!(html[places[2]..places[3]].contains("78 singular samples"));
+}
+
+#[test]
+fn noisy_ratios_are_marked_and_take_no_part_in_the_answer() {
+    let mut measured = measured();
+    let quiet = Spread::new(vec![2.0]);
+    let noisy = Spread::new(vec![1.0, 7.0, 50.0]);
+    let mut families = std::collections::BTreeSet::new();
+    for row in &mut measured.survey.rows {
+        families.insert(row.family.name());
+        row.time_ratio = if families.len() < 9 { noisy } else { quiet };
+    }
+    for (i, row) in measured.everyday.rows.iter_mut().enumerate() {
+        row.timing.ratio = if i < 28 { noisy } else { quiet };
+    }
+    let [_, everyday, hard] = answer::sentences(&measured);
+    assert!(
+        everyday.matches("2.00 times [2.00 to 2.00]").count() == 2,
+        "{everyday}"
+    );
+    assert!(
+        hard.contains("takes 2.00 times [2.00 to 2.00] that time"),
+        "{hard}"
+    );
+    assert!(hard.ends_with(", 1.00 times that of the same algorithm in plain arithmetic."));
+    let html = page(&measured, None, &[]);
+    assert!(html.contains("~7.00 ") && html.contains("[4.00 to 28.5]"));
+    measured
+        .survey
+        .rows
+        .iter_mut()
+        .for_each(|row| row.time_ratio = noisy);
+    measured
+        .everyday
+        .rows
+        .iter_mut()
+        .for_each(|row| row.timing.ratio = noisy);
+    let [_, everyday, hard] = answer::sentences(&measured);
+    assert!(everyday.contains("too noisy") && hard.contains("too noisy"));
 }

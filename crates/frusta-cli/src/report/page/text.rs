@@ -1,32 +1,33 @@
-//! The page: what was asked, what was found, how to read it.
+//! The page from top to bottom: the question, the first chart, the answer, and everything else.
 
 use super::marks::{colour, mark};
-use super::panel::{KEY, by_family, overview, panel};
-use super::totals::Total;
-use super::words::{count, figure, percent};
-use super::{everyday, peers, style, tables, volumes, worst};
-use crate::draw::Theme;
+use super::overview::{self, overview};
+use super::panel::{KEY, by_family, panel};
+use super::words::count;
+use super::{chart, everyday, peers, style, tables, volumes, worst};
 use crate::failure::Failure;
 use crate::replay;
-use crate::report::{Measured, Page};
+use crate::report::{Measured, Page, answer};
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use frusta_lab::{SurveyAlgorithm, SurveyTier};
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 use serde_json::Value;
 
-/// All of it.
+/// The whole page.
 pub(super) fn page(page: &Page<'_>) -> Result<String, Failure> {
     let body = html! {
         (headline(page.measured))
-        (everyday::section(&page.measured.everyday))
-        (volumes::section(&page.measured.volumes))
+        (first_chart(page.measured))
+        (answer(page.measured))
+        (paper(page))
         (how_to_read())
         (all_families(page))
         (panels(page))
+        (everyday::section(&page.measured.everyday))
+        (volumes::section(&page.measured.volumes))
         (worst_cases(page)?)
         (in_full(page))
-        (paper(page))
         (peers::section(page.peers))
         (bias())
         (left_out(page))
@@ -51,86 +52,65 @@ pub(super) fn page(page: &Page<'_>) -> Result<String, Failure> {
     Ok(html.into_string())
 }
 
-/// What was asked, and the answer in five numbers.
+/// What was asked.
 fn headline(measured: &Measured) -> Markup {
     let families = by_family(&measured.survey.rows).len();
+    let rows = &measured.survey.rows;
+    let used = |tier: &SurveyTier| rows.iter().any(|row| row.tier == *tier);
+    let tiers = SurveyTier::ALL.iter().filter(|tier| used(tier)).count();
     html! {
         p.soft { "frusta report" }
         h1 { "What does an exactly right clip of a segment against a view frustum cost?" }
         p.lead {
-            "Six algorithms in nine kinds of arithmetic clipped the same segments, in " (families)
-            " families of singular, stiff and extreme cases. Every answer was held against rational \
-             arithmetic, and every clipper was timed; four of them on everyday segments, too."
+            "Six algorithms in " (tiers) " kinds of arithmetic clipped the same segments, in "
+            (families) " families of singular, stiff and extreme cases. Every answer was compared with \
+             rational arithmetic, and every clipper was timed."
         }
-        (numbers(measured))
+    }
+}
+
+/// Error against run time over all families, and what its terms mean.
+fn first_chart(measured: &Measured) -> Markup {
+    html! {
+        figure #chart {
+            div.scroll.wide { (PreEscaped(chart::chart(&measured.survey))) }
+            figcaption {
+                b { "Error against run time over all families. " }
+                b { "u" } " is the unit roundoff of the type, 2" sup { "-53" } " in f64 and 2" sup { "-24" }
+                " in f32; an error of 1 u·scale is u times the largest coordinate of the segment. "
+                b { "Exact" } " clippers decide by the exact signs of what " b { "plain" }
+                " ones round; fast, nearest and inward differ in the rounding of the points. "
+                b { "V/W" } " is projection reduction, the method of the paper below: it clips by the \
+                 frustum's outlines in two planes, V and W."
+            }
+        }
+    }
+}
+
+/// The answer in three sentences.
+fn answer(measured: &Measured) -> Markup {
+    html! {
+        h2 #answer { "The answer" }
+        ul.answer { @for sentence in answer::sentences(measured) { li { (sentence) } } }
+        p.soft {
+            "Wrong: outside, touching or crossing mistaken, a wrong face, or no answer. In brackets: the \
+             lower and the upper quartile over the rounds, in each of which all clippers took turns. A \
+             ratio with a quartile that is more than 25 % off its median is noisy: it is marked ~ in the \
+             tables, and takes no part in these sentences."
+        }
         (contents())
     }
 }
 
-/// How many answers are wrong, and what it costs that none is.
-fn numbers(measured: &Measured) -> Markup {
-    let survey = &measured.survey;
-    let plain = Total::of(survey, |row| !row.tier.is_exact());
-    let exact = Total::of(survey, |row| row.tier.is_exact());
-    let fast = Total::of_clipper(survey, SurveyAlgorithm::Vw, SurveyTier::ExactFast);
-    let same = Total::of_clipper(survey, SurveyAlgorithm::Vw, SurveyTier::PlainF64);
-    let slower = fast.time_ratio.zip(same.time_ratio).map(|(a, b)| a / b);
-    html! {
-        div.numbers {
-            div.number {
-                b { (percent(plain.share(plain.wrong()))) }
-                span {
-                    "of the answers of plain arithmetic are wrong: " (count(plain.wrong())) " of "
-                    (count(plain.cases)) " have a wrong class or face set, or there is no answer. A \
-                     wrong class alone: " (count(plain.wrong_class)) "."
-                }
-            }
-            div.number {
-                b { (count(exact.wrong())) }
-                span {
-                    "answers of exact arithmetic are wrong, of " (count(exact.cases)) ". "
-                    (percent(exact.share(exact.exact_stage)))
-                    " of them needed expansions or big integers."
-                }
-            }
-            div.number {
-                @if let Some(ratio) = fast.time_ratio {
-                    b { (figure(ratio)) " times" }
-                    span {
-                        "the run time of textbook Liang-Barsky in plain f64 is what exact V/W takes \
-                         on these families (exact-fast, geometric mean)."
-                    }
-                } @else {
-                    b { "not timed" }
-                    span { "This run took no times." }
-                }
-            }
-            div.number {
-                @if let Some(slower) = slower {
-                    b { (figure(slower)) " times" }
-                    span {
-                        "the time of the same algorithm in plain arithmetic: the price of being \
-                         right, where at least half of the cases are next to singular."
-                    }
-                } @else {
-                    b { (count(survey.cases)) }
-                    span { "cases of each family in each scalar type." }
-                }
-            }
-            (everyday::number(&measured.everyday))
-        }
-    }
-}
-
-/// Links to all that follows.
+/// Links to all sections that follow.
 fn contents() -> Markup {
     html! {
         nav {
             @for (id, name) in [
-                ("everyday", "everyday segments"), ("volumes", "boxes and balls"), ("read", "how to read a panel"),
-                ("overview", "all families"), ("panels", "panels"), ("worst", "worst cases"), ("tables", "tables"), ("paper", "the paper's table"),
-                ("peers", "other libraries"), ("bias", "our bias"), ("omitted", "left out"),
-                ("made", "how it was made"),
+                ("paper", "the paper's table"), ("read", "how to read a panel"), ("overview", "all families"),
+                ("panels", "panels"), ("everyday", "everyday segments"), ("volumes", "boxes and spheres"),
+                ("worst", "worst cases"), ("tables", "tables"), ("peers", "other libraries"),
+                ("bias", "our bias"), ("omitted", "left out"), ("made", "how it was made"),
             ] {
                 a href={ "#" (id) } { (name) }
             }
@@ -140,7 +120,7 @@ fn contents() -> Markup {
 
 /// The key and the axes.
 fn how_to_read() -> Markup {
-    let little = |algorithm, tier| {
+    let icon = |algorithm, tier| {
         let shape = mark(algorithm, tier, [9.0, 9.0], 5.5, "");
         html! {
             svg.panel viewBox="0 0 18 18" aria-hidden="true" { (PreEscaped(shape)) }
@@ -155,11 +135,11 @@ fn how_to_read() -> Markup {
         ul {
             li {
                 "Error is the largest distance of a coordinate from the exact one, in unit roundoffs of \
-                 the type times the segment's largest coordinate (u·scale). Points that are exact \
-                 have the rail at the bottom."
+                 the type times the segment's largest coordinate (u·scale). Exact points are on the rail \
+                 at the bottom."
             }
             li {
-                "A wrong class, such as a hit called a miss, has no error that could be averaged. Such \
+                "A wrong class, such as a hit reported as a miss, has no error that could be averaged. Such \
                  clippers have a mark on the rail at the top, at the share of cases that are wrong or \
                  refused, and a second one for their right answers, tied to it by a thin line."
             }
@@ -170,14 +150,14 @@ fn how_to_read() -> Markup {
         }
         div.key {
             @for algorithm in SurveyAlgorithm::ALL {
-                span.any { (little(algorithm, SurveyTier::PlainF64)) (algorithm) }
+                span.any { (icon(algorithm, SurveyTier::PlainF64)) (algorithm) }
             }
         }
         div.key {
             @for (tier, name) in KEY {
-                span class=(colour(tier)) { (little(SurveyAlgorithm::Vw, tier)) (name) }
+                span class=(colour(tier)) { (icon(SurveyAlgorithm::Vw, tier)) (name) }
             }
-            span { (little(SurveyAlgorithm::Vw, SurveyTier::ExactFastF32)) "hollow: the same in f32" }
+            span { (icon(SurveyAlgorithm::Vw, SurveyTier::ExactFastF32)) "hollow: the same in f32" }
         }
     }
 }
@@ -186,8 +166,10 @@ fn all_families(page: &Page<'_>) -> Markup {
     html! {
         h2 #overview { "All families" }
         p {
-            "The same axes for all. The grey line across is where " code { "exact-fast" }
-            " promises to stay below; the one upwards is the time of textbook Liang-Barsky."
+            "A thumbnail of each panel, all on the same axes, those of the first chart with one family \
+             each. " (overview::axes(&page.measured.survey.rows)) " The dashed line across is the bound of "
+            code { "exact-fast" } "; the line upwards is the time of textbook Liang-Barsky. A click leads \
+             to the panel."
         }
         figure { div.scroll.wide { (PreEscaped(overview(&page.measured.survey.rows))) } }
         h3 { "Totals" }
@@ -199,7 +181,9 @@ fn all_families(page: &Page<'_>) -> Markup {
         p.soft {
             "Time ratios are geometric means over the families. f32 tiers only run on families that \
              make sense in f32. Errors are of answers whose class is right; swapped: other answers \
-             for swapped ends; again: other answers when clipped again. Headings sort."
+             for swapped ends; again: other answers when clipped again; unbounded: the exact coordinate is \
+             0 or next to it, so that no number of its units in the last place measures the error. A \
+             click on a heading sorts."
         }
     }
 }
@@ -244,9 +228,9 @@ fn worst_cases(page: &Page<'_>) -> Result<Markup, Failure> {
             p { "There are none." }
         } @else {
             p {
-                "The worst of each kind, of different families. Red is what was wrong: bands and crosses \
-                 are answers whose class or faces are wrong. Below, closely, is where answers part from \
-                 the truth. Each line under a picture is the case, to the bit: "
+                "The worst of each kind, from different families. Red marks wrong answers: bands and crosses \
+                 have a wrong class or wrong faces. The lower picture is a close view of where answers and \
+                 truth differ. The line under a picture is the case, to the bit: "
                 code { "frusta replay" } " runs it through all clippers again. The rest is in "
                 code { "report.json" } "."
             }
@@ -259,7 +243,7 @@ fn worst_cases(page: &Page<'_>) -> Result<Markup, Failure> {
                         img src=(light) alt=(title) loading="lazy";
                     }
                     figcaption {
-                        b { (title) } ", " (worst::says(witness)) " (case " (witness.case) ")"
+                        b { (title) } ", " (worst::describe(witness)) " (case " (witness.case) ")"
                         pre { "frusta replay \"" (witness.line) "\"" }
                     }
                 }
@@ -275,7 +259,8 @@ fn in_full(page: &Page<'_>) -> Markup {
             "Counts are out of the family's cases: wrong classes, wrong face sets or clipped flags, \
              refusals (also panics and numbers that are not finite); ends outside of the frustum, \
              answers that differ for swapped ends, answers that change when clipped again; cases that \
-             the filter did not settle, and that needed expansions or big integers."
+             the filter did not settle, and that needed expansions or big integers. Ratios are times as \
+             multiples of textbook Liang-Barsky's, with quartiles."
         }
         @for rows in by_family(&page.measured.survey.rows) {
             @if let Some(first) = rows.first() {
@@ -292,20 +277,27 @@ fn paper(page: &Page<'_>) -> Markup {
     html! {
         h2 #paper { "The paper's table" }
         p {
-            "The paper that projection reduction (V/W) is from gives run times of Liang-Barsky, of the \
-             general algorithm (six planes) and of projection reduction on 78 singular samples as \
-             4243 : 4228 : 4212, without a unit or a machine"
+            "\u{201c}View Frustum Culling Geometric Algorithm\u{201d} (\u{89c6}\u{9525}\u{4f53}\u{88c1}\u{526a}\u{51e0}\u{4f55}\u{7b97}\u{6cd5}\u{7814}\u{7a76}, in Chinese), the paper \
+             that describes projection reduction (V/W), gives run times of Liang-Barsky, of the general \
+             algorithm (six planes) and of projection reduction as 4243 : 4228 : 4212, without a unit or a \
+             machine"
             @if let Some(ours) = tables::proportion(&page.measured.paper) {
                 "; ours, on the same scale, are " b { (ours) }
             }
-            ". It says that the general algorithm errs where the two others do not. The 78 samples are \
-             our derivation: it lists none. Each was clipped " (count(u64::from(page.measured.paper.repeats)))
+            ". It says that the general algorithm errs where the two others do not."
+        }
+        p {
+            "The times are of " b { "78 singular samples" } ": segments that touch, cross or lie in the \
+             corners, edges and faces of a frustum. The paper does not list them; these are derived from \
+             its description. Each was clipped " (count(u64::from(page.measured.paper.repeats)))
             " times, in " (page.measured.paper.rounds) " rounds."
         }
         (tables::paper(&page.measured.paper))
         p.soft {
-            "Ratios are to textbook Liang-Barsky, plain, in the same type; larger is slower. In order: as \
-             in the paper, which branch predictors learn by heart. Wrong counts classes and face sets."
+            "Ratios are to textbook Liang-Barsky, plain, in the same type, with quartiles; larger is \
+             slower. In order: as in the paper, which branch predictors learn by heart. Wrong counts \
+             classes and face sets: of the 78; of samples whose outer parts are longer; of both in 48 \
+             orientations of the axes; and in rotated poses."
         }
     }
 }
@@ -317,22 +309,22 @@ fn bias() -> Markup {
             li {
                 "The families are chosen to be hard: in each, at least half of the cases are within 4 ulp \
                  of a singular one. On segments at random, plain arithmetic is wrong far more rarely than \
-                 here, and its shares here are no estimate for anybody's scene."
+                 here, and its shares here are no estimate for any scene."
             }
             li {
                 "The plain algorithms are our own writing of textbooks. They were written to be fast and \
                  fair, but whoever wrote the exact tier wrote them, too."
             }
             li {
-                "Truth is this crate's oracle. It is independent code, in rational arithmetic, but of the \
-                 same hands; the files that come with this page let anybody check it with other ones."
+                "The truth is computed by this crate's oracle: independent code, in rational arithmetic, but by \
+                 the same authors. With the files beside this page anybody can check it."
             }
             li {
-                "Singular cases take the exact stages' time, so run times on the families flatter plain \
-                 arithmetic. They are of one segment a call."
+                "Singular cases need the slower exact stages, so run times on the families flatter plain \
+                 arithmetic. They are taken with one segment a call."
             }
             li {
-                "The mixes of everyday segments are made up, by us; nobody's scene was recorded. How much \
+                "We made up the mixes of everyday segments; no program's scene was recorded. How much \
                  faster or slower exact clipping is depends on how many segments are outside, inside and cut."
             }
             li { "The reference of all ratios, textbook Liang-Barsky, is not the fastest plain algorithm." }

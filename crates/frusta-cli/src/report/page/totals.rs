@@ -1,6 +1,6 @@
-//! Sums over all families, which the headline is made of.
+//! Sums over families.
 
-use frusta_lab::{Survey, SurveyAlgorithm, SurveyRow, SurveyTier, geometric_mean};
+use frusta_lab::{Spread, Survey, SurveyAlgorithm, SurveyRow, SurveyTier};
 
 /// Some rows, added.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -15,12 +15,12 @@ pub(super) struct Total {
     pub(super) filter_failures: u64,
     pub(super) exact_stage: u64,
     pub(super) max_u_scale: f64,
-    /// The geometric mean over the rows.
-    pub(super) time_ratio: Option<f64>,
+    /// The geometric mean over the rows; `None` if nothing was timed.
+    pub(super) time_ratio: Option<Spread>,
 }
 
 impl Total {
-    /// The rows of which this is true.
+    /// The sum of the rows that satisfy a condition.
     pub(super) fn of(survey: &Survey, which: impl Fn(&SurveyRow) -> bool) -> Self {
         let rows: Vec<&SurveyRow> = survey.rows.iter().filter(|row| which(row)).collect();
         let sum = |of: fn(&SurveyRow) -> u64| rows.iter().map(|row| of(row)).sum();
@@ -37,7 +37,7 @@ impl Total {
             filter_failures: sum(|row| row.filter_failures),
             exact_stage: sum(|row| row.exact_stage),
             max_u_scale: largest(|row| row.error_u_scale.max),
-            time_ratio: geometric_mean(rows.iter().map(|row| row.time_ratio)),
+            time_ratio: Spread::geometric_mean(rows.iter().map(|row| row.time_ratio)),
         }
     }
 
@@ -50,12 +50,12 @@ impl Total {
         Self::of(survey, |row| row.algorithm == algorithm && row.tier == tier)
     }
 
-    /// Answers of which something is wrong: class, faces, or no answer.
+    /// Wrong answers: class, faces, or no answer.
     pub(super) fn wrong(&self) -> u64 {
         self.wrong_class + self.wrong_faces + self.refused
     }
 
-    /// A count's share.
+    /// A count's share of the cases.
     pub(super) fn share(&self, count: u64) -> f64 {
         count as f64 / self.cases.max(1) as f64
     }

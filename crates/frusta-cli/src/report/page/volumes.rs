@@ -1,5 +1,6 @@
-//! Boxes, balls and batches.
+//! Boxes, spheres and batches.
 
+use super::tables::ratio;
 use super::words::{count, figure};
 use frusta_lab::{FalseAccepts, VolumeKind, VolumeSurvey, VolumeTally, VolumeTime};
 use maud::{Markup, html};
@@ -8,19 +9,19 @@ use maud::{Markup, html};
 pub(super) fn section(volumes: &VolumeSurvey) -> Markup {
     let cases: u64 = volumes.errors.iter().map(|(_, tally)| tally.cases).sum();
     html! {
-        h2 #volumes { "Boxes and balls" }
+        h2 #volumes { "Boxes and spheres" }
         p {
-            "What a program asks for each thing that it might draw: is it outside of the frustum, inside, or \
-             neither? " (count(cases)) " hard volumes of the families were asked about alone and in batches, at \
-             least half of them within 4 ulp of touching, and held against integers."
+            "A program asks of everything that it might draw: is it outside of the frustum, inside, or \
+             neither? " (count(cases)) " hard volumes of the families, at least half of them within 4 ulp \
+             of touching, were classified alone and in batches, and compared with integer arithmetic."
         }
         (errors(&volumes.errors))
-        h3 { "What faces let pass" }
+        h3 { "False accepts of the faces" }
         p {
-            "Asked face by face, a box beyond an edge or a corner of the frustum is outside of none. The exact \
-             test finds it. The larger the boxes and the narrower the view, the more it \
-             takes out: boxes along the axes of up to a half extent, in parts of the far distance, evenly where \
-             one can touch the frustum\'s bounds; the camera is turned."
+            "No single face rejects a box beyond an edge or a corner of the frustum; the exact test does. \
+             The larger the boxes and the narrower the view, the more it rejects. Boxes along the axes, \
+             with half extents up to a part of the far distance, placed evenly where one can touch the \
+             frustum\'s bounding box; the camera is turned."
         }
         (accepts(&volumes.accepts))
         h3 { "Times" }
@@ -28,8 +29,8 @@ pub(super) fn section(volumes: &VolumeSurvey) -> Markup {
         p.soft {
             "All in f32, " (count(volumes.timed as u64)) " of each; batches of "
             (count(VolumeSurvey::PIECE as u64)) " a call. Medians over " (volumes.rounds)
-            " rounds, in which all took turns. A set is boxes that are kept from frame to frame. Segments are the \
-             mixed ones; intervals are class and parameters, without points."
+            " rounds, in which all took turns. A set holds boxes that are kept from frame to frame. Segments \
+             are the mixed ones; intervals are class and parameters, without points."
         }
     }
 }
@@ -58,7 +59,7 @@ fn accepts(rows: &[FalseAccepts]) -> Markup {
         div.scroll { table {
             thead { tr {
                 th { "half extent" } th { "view, radians" } th { "boxes" } th { "not rejected" }
-                th { "of these, apart" } th { "share, %" }
+                th { "of these, outside" } th { "share, %" }
             } }
             tbody { @for row in rows { tr {
                 td { (row.size) }
@@ -76,13 +77,13 @@ fn times(rows: &[VolumeTime]) -> Markup {
     html! {
         div.scroll { table {
             thead { tr {
-                th.t { "asked about" } th.t { "by" } th { "ns" } th { "times as fast as the first" }
+                th.t { "volume" } th.t { "function" } th { "ns" } th { "times as fast as the first" }
             } }
             tbody { @for row in rows { tr {
                 td.t { (row.job) }
                 td.t { (row.function) }
                 td { (figure(row.timing.nanoseconds)) }
-                td { @if row.timing.ratio > 0.0 { (figure(1.0 / row.timing.ratio)) } @else { "-" } }
+                (ratio(row.timing.speed().unwrap_or_default()))
             } } }
         } }
     }

@@ -1,9 +1,28 @@
-//! Numbers as the page says them.
+//! Numbers as text.
+
+use frusta_lab::Spread;
+
+/// A ratio of times with its quartiles; `~` marks a noisy one.
+pub(crate) fn times(ratio: Spread) -> String {
+    format!("{} [{}]", median(ratio), quartiles(ratio))
+}
+
+/// A ratio of times without its quartiles; `~` marks a noisy one.
+pub(crate) fn median(ratio: Spread) -> String {
+    let mark = if ratio.is_noisy() { "~" } else { "" };
+    format!("{mark}{}", figure(ratio.median))
+}
+
+/// A ratio's quartiles.
+pub(crate) fn quartiles(ratio: Spread) -> String {
+    format!("{} to {}", figure(ratio.lower), figure(ratio.upper))
+}
 
 /// Three digits of a time or an error.
-pub(super) fn figure(value: f64) -> String {
+pub(crate) fn figure(value: f64) -> String {
     match value {
         0.0 => "0".to_owned(),
+        f64::MAX => "unbounded".to_owned(),
         v if !v.is_finite() => "-".to_owned(),
         v if !(0.000_95..9999.5).contains(&v) => format!("{v:.1e}"),
         v if v >= 99.95 => format!("{v:.0}"),
@@ -14,7 +33,7 @@ pub(super) fn figure(value: f64) -> String {
 }
 
 /// A share as a percentage.
-pub(super) fn percent(share: f64) -> String {
+pub(crate) fn percent(share: f64) -> String {
     let percent = 100.0 * share;
     match percent {
         0.0 => "0 %".to_owned(),
@@ -30,8 +49,8 @@ pub(super) fn percent(share: f64) -> String {
     }
 }
 
-/// A count with its thousands apart.
-pub(super) fn count(n: u64) -> String {
+/// A count with commas between thousands.
+pub(crate) fn count(n: u64) -> String {
     let digits = n.to_string();
     let mut text = String::new();
     for (i, digit) in digits.chars().enumerate() {
@@ -54,6 +73,10 @@ mod tests {
             figures,
             ["0", "0.50", "1.23", "23.5", "457", "1.0e16", "1.0e-9", "-"]
         );
+        assert_eq!(figure(f64::MAX), "unbounded");
+        let spread = |values: [f64; 3]| times(Spread::new(values.to_vec()));
+        assert_eq!(spread([1.0, 2.0, 3.0]), "~2.00 [1.50 to 2.50]");
+        assert_eq!(spread([1.0, 1.1, 1.2]), "1.10 [1.05 to 1.15]");
         let shares = [0.0, 1.0, 0.34, 0.012, 1e-4, 1e-6].map(percent);
         assert_eq!(
             shares,

@@ -1,4 +1,4 @@
-//! Which of the worst cases are drawn.
+//! The worst cases that are drawn.
 
 use frusta_lab::{Survey, SurveyTier, SurveyWitness, SurveyWorst};
 
@@ -11,7 +11,7 @@ const PLAIN: [(SurveyWorst, usize); 5] = [
     (SurveyWorst::ErrorUlp, 1),
 ];
 
-/// Of exact tiers there are errors only, and whatever else there is would be a bug.
+/// Exact tiers have errors only; anything else would be a bug.
 const EXACT: [(SurveyWorst, usize); 5] = [
     (SurveyWorst::Class, 2),
     (SurveyWorst::Refused, 2),
@@ -29,7 +29,7 @@ pub(super) fn choose(survey: &Survey) -> Vec<&SurveyWitness> {
         let mut of_kind: Vec<&SurveyWitness> = survey
             .witnesses
             .iter()
-            // What f32 rounds away is no news where f64 is wrong, too.
+            // f32 adds nothing where f64 is wrong, too.
             .filter(|w| w.worst == worst && w.tier.is_exact() == exact)
             .filter(|w| exact || w.tier == SurveyTier::PlainF64)
             .collect();
@@ -45,8 +45,8 @@ pub(super) fn choose(survey: &Survey) -> Vec<&SurveyWitness> {
     chosen
 }
 
-/// What is wrong with it, in words.
-pub(super) fn says(witness: &SurveyWitness) -> String {
+/// What is wrong with a case, in words.
+pub(super) fn describe(witness: &SurveyWitness) -> String {
     let value = witness.value;
     let number = super::words::figure(value);
     match witness.worst {
