@@ -24,7 +24,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         eye: [3.0, 2.0, 4.0].into(),
         target: [0.5, 0.5, 0.0].into(),
         up: [0.0, 1.0, 0.0].into(),
-        projection: Projection::Perspective { fovy: 0.5, aspect: 1.5 },
+        projection: Projection::Perspective {
+            fovy: 0.5,
+            aspect: 1.5,
+        },
         near: 0.1,
         far: 6.0,
     };
@@ -56,9 +59,18 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     for (edge, clip) in edges.iter().zip(&clips) {
         assert_eq!(*clip, frustum.clip_segment(edge)?);
     }
-    let cut = clips.iter().filter(|clip| clip.class == Class::Cross).count();
-    let outside = clips.iter().filter(|clip| clip.class == Class::Outside).count();
-    println!("{cut} of {} edges are cut, {outside} are outside", edges.len());
+    let cut = clips
+        .iter()
+        .filter(|clip| clip.class == Class::Cross)
+        .count();
+    let outside = clips
+        .iter()
+        .filter(|clip| clip.class == Class::Outside)
+        .count();
+    println!(
+        "{cut} of {} edges are cut, {outside} are outside",
+        edges.len()
+    );
     assert!(cut > 0 && cut + outside <= edges.len());
     Ok(())
 }

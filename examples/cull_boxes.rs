@@ -4,8 +4,8 @@
 
 use frusta::cull::BoxSet;
 use frusta::{Aabb, ClipSpace, Culler, ViewProjection};
-use glam::camera::rh::{proj::directx::perspective_infinite_reverse, view::look_to_mat4};
 use glam::Vec3;
+use glam::camera::rh::{proj::directx::perspective_infinite_reverse, view::look_to_mat4};
 
 /// Boxes along a street, which runs in -z: a house on each side every ten metres.
 fn street() -> Vec<Aabb<f32>> {
@@ -34,7 +34,11 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             .frustum;
         // Making a culler takes some ten microseconds: once a frame, or once a view.
         Culler::new(&frustum).over(&houses).visible(&mut visible)?;
-        println!("frame {frame}: {} of {} houses", visible.len(), houses.len());
+        println!(
+            "frame {frame}: {} of {} houses",
+            visible.len(),
+            houses.len()
+        );
 
         // Answers are exact: a box is listed if no face plane rejects it, touching included.
         assert!(visible.is_sorted());

@@ -20,7 +20,11 @@ fn tree(min: [f64; 3], size: f64, depth: u32) -> Node {
     };
     Node {
         bounds: Aabb::new(min, min.map(|c| c + size)),
-        children: if depth == 0 { Vec::new() } else { (0..8).map(octant).collect() },
+        children: if depth == 0 {
+            Vec::new()
+        } else {
+            (0..8).map(octant).collect()
+        },
         hint: None,
     }
 }
@@ -31,7 +35,12 @@ struct Tally {
     visible_leaves: u32,
 }
 
-fn visit(culler: &Culler, node: &mut Node, faces: FaceSet, tally: &mut Tally) -> Result<(), VolumeError> {
+fn visit(
+    culler: &Culler,
+    node: &mut Node,
+    faces: FaceSet,
+    tally: &mut Tally,
+) -> Result<(), VolumeError> {
     // Without faces left to ask, the node is wholly inside.
     let mut left = faces;
     if !faces.is_empty() {
@@ -57,7 +66,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             eye: [0.0, 0.0, 0.0].into(),
             target: [angle.sin(), 0.0, -angle.cos()].into(),
             up: [0.0, 1.0, 0.0].into(),
-            projection: Projection::Perspective { fovy: 0.8, aspect: 1.5 },
+            projection: Projection::Perspective {
+                fovy: 0.8,
+                aspect: 1.5,
+            },
             near: 0.5,
             far: 50.0,
         };

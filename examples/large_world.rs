@@ -23,7 +23,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         eye: BENCH.into(),
         target: [BENCH[0] + 0.5, BENCH[1], BENCH[2]].into(),
         up: [0.0, 0.0, 1.0].into(),
-        projection: Projection::Perspective { fovy: 0.1, aspect: 1.0 },
+        projection: Projection::Perspective {
+            fovy: 0.1,
+            aspect: 1.0,
+        },
         near: 0.1,
         far: 10.0,
     };

@@ -27,9 +27,21 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let reversed = (-NEAR / span, -FAR * NEAR / span);
     let conventions = [
         ("OpenGL", perspective(gl.0, gl.1, 1.0), ClipSpace::OPENGL),
-        ("wgpu", perspective(zero_to_one.0, zero_to_one.1, 1.0), ClipSpace::ZERO_TO_ONE),
-        ("Vulkan", perspective(zero_to_one.0, zero_to_one.1, -1.0), ClipSpace::VULKAN),
-        ("wgpu, reversed depth", perspective(reversed.0, reversed.1, 1.0), ClipSpace::ZERO_TO_ONE.reversed()),
+        (
+            "wgpu",
+            perspective(zero_to_one.0, zero_to_one.1, 1.0),
+            ClipSpace::ZERO_TO_ONE,
+        ),
+        (
+            "Vulkan",
+            perspective(zero_to_one.0, zero_to_one.1, -1.0),
+            ClipSpace::VULKAN,
+        ),
+        (
+            "wgpu, reversed depth",
+            perspective(reversed.0, reversed.1, 1.0),
+            ClipSpace::ZERO_TO_ONE.reversed(),
+        ),
     ];
 
     // From the axis upwards, half way between near and far: it leaves through the top.
@@ -38,7 +50,11 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         // The arrays above are rows. glam's `to_cols_array_2d` is `ColumnMajorColumnVectors`.
         let matrix = ViewProjection::new(rows, MatrixLayout::RowMajorColumnVectors);
         let found = matrix.frustum(clip_space)?;
-        let part = found.frustum.clip_segment(&edge)?.part.ok_or("the edge is inside")?;
+        let part = found
+            .frustum
+            .clip_segment(&edge)?
+            .part
+            .ok_or("the edge is inside")?;
         println!(
             "{name}: the edge leaves through {} at y = {}; vertices off by at most {:e}",
             part.exit.faces, part.exit.point.y, found.deviation.sides

@@ -29,10 +29,16 @@ fn wrong(clipper: &dyn SegmentClipper<f64>, family: Family) -> (u64, Option<(Cla
 
 fn main() {
     let clippers: [(&str, Box<dyn SegmentClipper<f64>>); 4] = [
-        ("Liang-Barsky, plain", Box::new(LiangBarsky::plain(LiangBarskyVariant::Textbook))),
+        (
+            "Liang-Barsky, plain",
+            Box::new(LiangBarsky::plain(LiangBarskyVariant::Textbook)),
+        ),
         ("six planes, plain", Box::new(SixPlanes::plain())),
         ("V/W, plain", Box::new(VwProjection::plain())),
-        ("six planes, exact", Box::new(SixPlanes::exact(Default::default()))),
+        (
+            "six planes, exact",
+            Box::new(SixPlanes::exact(Default::default())),
+        ),
     ];
     for family in [Family::FreePose, Family::HalfLattice] {
         println!("family {family}, {CASES} cases:");

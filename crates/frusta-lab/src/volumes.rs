@@ -375,8 +375,8 @@ const TIMED: [Timed; 13] = [
         for range in scene.pieces() {
             let [a, b, c, radius] = scene.sphere_columns.each_ref().map(|v| &v[range.clone()]);
             let center = [a, b, c];
-            let input = Spheres::from(SphereArrays { center, radius });
-            let _ = scene.culler.mask_spheres(input, &mut to.masks);
+            let input = SphereArrays { center, radius };
+            let _ = scene.culler.over(input).masks(&mut to.masks);
         }
     }),
     ("segment", "clip_segment", |scene, _| {

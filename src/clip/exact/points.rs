@@ -256,7 +256,9 @@ fn nearest_double_double<T: Real>(staged: &Staged<'_>, face: Face) -> Option<(T,
     } else {
         (end, start)
     };
-    let exact = filter.identity.then(|| staged.frustum.shape().constant_coordinate(face));
+    let exact = filter
+        .identity
+        .then(|| staged.frustum.shape().constant_coordinate(face));
     let coordinate = |k: usize| {
         if let Some(Some((axis, at))) = exact
             && axis == k

@@ -33,9 +33,9 @@
 use super::block_driver::{BLOCK, Block, BlockAnswers, BlockBits, Volumes, WORD, load};
 use super::box_set::{BoxSet, Stored};
 use crate::cull::{Aabb, Volume};
+use crate::frustum::eval::plane_lanes::PlaneLanes;
 use crate::frustum::eval::planes::{FacePlanes, Plane};
 use crate::math::{Real, Vec3};
-use crate::frustum::eval::plane_lanes::PlaneLanes;
 use fearless_simd::prelude::*;
 #[cfg(feature = "parallel")]
 use std::ops::Range;

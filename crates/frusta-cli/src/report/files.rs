@@ -16,13 +16,13 @@ use std::path::{Path, PathBuf};
 /// The files of a report, begun.
 pub(crate) struct Folder {
     folder: PathBuf,
-    json: WholeFile,
-    rows: WholeFile,
-    witnesses: WholeFile,
-    lines: WholeFile,
-    html: WholeFile,
-    tables: WholeFile,
-    panels: Vec<(Family, WholeFile)>,
+    json: AtomicFile,
+    rows: AtomicFile,
+    witnesses: AtomicFile,
+    lines: AtomicFile,
+    html: AtomicFile,
+    tables: AtomicFile,
+    panels: Vec<(Family, AtomicFile)>,
 }
 
 impl Folder {

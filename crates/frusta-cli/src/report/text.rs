@@ -2,7 +2,7 @@
 
 use super::machine::Machine;
 use super::{Measured, Page, answer};
-use crate::picture::wrapped;
+use crate::draw::wrapped;
 use frusta_lab::{PaperSummary, SurveyTable};
 use std::path::Path;
 

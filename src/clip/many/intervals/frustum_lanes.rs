@@ -11,9 +11,9 @@
 
 use crate::clip::rules::certificate::ROUNDINGS;
 use crate::frustum::eval::filter::Filter;
+use crate::frustum::eval::plane_lanes::PlaneLanes;
 use crate::frustum::eval::planes::FacePlanes;
 use crate::math::Real;
-use crate::frustum::eval::plane_lanes::PlaneLanes;
 use fearless_simd::prelude::*;
 
 /// A frustum in each lane.

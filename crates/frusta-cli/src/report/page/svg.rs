@@ -2,7 +2,7 @@
 //!
 //! Classes carry all colours and line widths: see `style`.
 
-use crate::picture::escaped;
+use crate::draw::escaped;
 use std::fmt::Write;
 
 /// Where a text is relative to its position.

@@ -5,6 +5,7 @@ use super::overview::{self, overview};
 use super::panel::{KEY, by_family, panel};
 use super::words::count;
 use super::{chart, everyday, peers, style, tables, volumes, worst};
+use crate::draw::Theme;
 use crate::failure::Failure;
 use crate::replay;
 use crate::report::{Measured, Page, answer};
