@@ -1,6 +1,6 @@
 //! View frusta: their canonical form and the constructors.
 //!
-//! A [`Frustum`] is a closed convex set, defined exactly by a [`Pose`](crate::Pose) (a frame in the
+//! A [`Frustum`] is a closed convex set, defined exactly by a [`Pose`] (a frame in the
 //! world) and a [`Shape`] in that frame: two rectangles, or one rectangle that grows without end. All
 //! clipping and culling in this crate is relative to one.
 //!
