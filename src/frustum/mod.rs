@@ -1,6 +1,6 @@
 //! View frusta: their canonical form and the constructors.
 //!
-//! A [`Frustum`] is a closed convex set, defined exactly by a [`Pose`](crate::Pose) (a frame in the
+//! A [`Frustum`] is a closed convex set, defined exactly by a [`Pose`] (a frame in the
 //! world) and a [`Shape`] in that frame: two rectangles, or one rectangle that grows without end. All
 //! clipping and culling in this crate is relative to one.
 //!
@@ -12,7 +12,7 @@
 //! | six points, as in the projection-reduction paper | [`SixPoints::frustum`] |
 //! | another frustum, for a pick box, a tile or one eye of a stereo pair | [`Frustum::window`], [`Frustum::tile`], [`Frustum::stereo_eye`] |
 //!
-//! A [`Camera`] is the better choice where both it and a matrix are at hand: it keeps the near and far
+//! If both a camera and a matrix are available, prefer the [`Camera`]: it keeps the near and far
 //! distances as given, while the entries of a matrix have been rounded already. Each constructor states
 //! its own error bound; after that the stored numbers *are* the frustum, and no answer depends on what
 //! they were rounded from.
