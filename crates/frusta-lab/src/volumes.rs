@@ -61,7 +61,7 @@ pub struct VolumePlan {
 }
 
 impl VolumePlan {
-    /// How much of `on_step` there will be.
+    /// The sum of all steps passed to `on_step`.
     pub fn steps(&self) -> u64 {
         let tried = self.families.len() as u64 * VolumeKind::ALL.len() as u64 * self.cases;
         let timed = u64::from(self.rounds) * TIMED_STEP;
@@ -69,9 +69,9 @@ impl VolumePlan {
     }
 }
 
-/// Boxes that weigh as much as one that is tried.
+/// Boxes that count as one step.
 const BOXES_STEP: u64 = 16;
-/// What a round of times weighs.
+/// Steps that a round of timing counts as.
 const TIMED_STEP: u64 = 400;
 
 /// Half extents up to this part of the depth, and fields of view in radians.
@@ -167,7 +167,7 @@ pub fn volumes(plan: &VolumePlan, on_step: &(dyn Fn(u64) + Sync)) -> VolumeSurve
     }
 }
 
-/// As far as is seen in these views.
+/// The far distance of these views.
 const FAR: f64 = 100.0;
 
 /// A square view from 1 to 100, along none of the axes, which boxes lie along: as cameras do.
@@ -195,7 +195,7 @@ fn any_box(random: &mut Random, [low, high]: [Vec3<f64>; 2], most: f64) -> Aabb<
     Aabb::new(middle - half, middle + half)
 }
 
-/// The corners of what bounds a frustum.
+/// The least and the greatest corner of a frustum's bounding box.
 fn bounds(frustum: &Frustum) -> Option<[Vec3<f64>; 2]> {
     let corners = frustum.corners();
     let FarCorners::Points(far) = corners.far else {
@@ -228,7 +228,7 @@ fn false_accepts(size: f64, field_of_view: f64, plan: &VolumePlan) -> Option<Fal
     })
 }
 
-/// What is timed, by structures and by arrays.
+/// The volumes and segments that are timed, as structures and as arrays.
 struct Scene {
     culler: Culler,
     boxes: Vec<Aabb<f32>>,
@@ -305,7 +305,7 @@ impl Scene {
     }
 }
 
-/// Memory that functions write to.
+/// Buffers that functions write to.
 #[derive(Default)]
 struct Buffers {
     masks: ContainmentMasks,
