@@ -1,4 +1,4 @@
-//! Segments and boxes as arrays.
+//! Segments and boxes as structures of arrays.
 
 use frusta::clip::SegmentArrays;
 use frusta::cull::{BoxArrays, BoxSet};
@@ -37,7 +37,7 @@ impl SegmentColumns {
         }
     }
 
-    /// By as many threads as there are, each its own part.
+    /// The same on all threads, each of which copies a part.
     pub(crate) fn par_copy_from(&mut self, other: &Self) {
         for (to, from) in self.0.iter_mut().zip(&other.0) {
             let part = to.len().div_ceil(rayon::current_num_threads());
@@ -51,7 +51,7 @@ impl SegmentColumns {
 pub(crate) struct BoxColumns([Vec<f32>; 6]);
 
 impl BoxColumns {
-    /// Boxes without a pattern, of up to a part of the frustum's extent, in twice its extent.
+    /// Boxes without a pattern, up to `size` times the frustum's extent, in twice its extent.
     pub(crate) fn about(frustum: &Frustum, size: f64, count: usize) -> Self {
         let corners = frustum.corners();
         let FarCorners::Points(far) = corners.far else {
@@ -87,7 +87,7 @@ impl BoxColumns {
         self.0[0].len()
     }
 
-    /// All, in pieces of so many.
+    /// The ranges of pieces of this length.
     pub(crate) fn pieces(&self, piece: usize) -> impl Iterator<Item = Range<usize>> + use<> {
         let len = self.len();
         (0..len)

@@ -1,12 +1,13 @@
-//! Separating axes as they are usually written, in plain arithmetic: the exact test's rivals.
+//! The separating axis test as it is usually written, in plain arithmetic: what the exact test is
+//! compared with.
 
 use frusta::{Aabb, Corners, FarCorners, Frustum, Vec3};
 
-/// A frustum with an end.
+/// The axes of a finite frustum.
 pub(crate) struct SeparatingAxes {
     corners: [Vec3<f64>; 8],
     axes: Vec<Vec3<f64>>,
-    /// What the corners' values are between, along each axis.
+    /// The range of the corners' values along each axis.
     slabs: Vec<[f64; 2]>,
 }
 
@@ -20,19 +21,19 @@ fn range(axis: Vec3<f64>, points: &[Vec3<f64>; 8]) -> [f64; 2] {
 }
 
 impl SeparatingAxes {
-    /// The faces' normals, the world's axes, and the edges' cross products with these: for boxes
-    /// along the axes all are known before.
+    /// The faces' normals, the world's axes, and the edges' cross products with these: they are the
+    /// same for all axis-aligned boxes.
     pub(crate) fn new(frustum: &Frustum) -> Self {
         let Corners { near, far } = frustum.corners();
         let FarCorners::Points(far) = far else {
-            panic!("a frustum with an end");
+            panic!("the frustum is infinite");
         };
         let corners = std::array::from_fn(|i| if i < 4 { near[i] } else { far[i - 4] });
         let world = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(Vec3::from);
         let mut edges = vec![near[1] - near[0], near[3] - near[0]];
         edges.extend((0..4).map(|i| far[i] - near[i]));
         let faces = frustum.planes().map(|(_, plane)| plane.normal);
-        // Near and far have one normal.
+        // Near and far share a normal.
         let mut axes: Vec<_> = faces.skip(1).chain(world).collect();
         axes.extend(edges.iter().flat_map(|e| world.map(|w| e.cross(w))));
         let slabs = axes.iter().map(|axis| range(*axis, &corners)).collect();
@@ -43,7 +44,7 @@ impl SeparatingAxes {
         }
     }
 
-    /// All corners along every axis, until one separates.
+    /// Compares all corners along each axis, until one separates.
     pub(crate) fn meets(&self, volume: &Aabb<f32>) -> bool {
         let ends = [volume.min.to_f64(), volume.max.to_f64()];
         let of = |bits: usize, axis: usize| ends[bits >> axis & 1][axis];
@@ -54,7 +55,7 @@ impl SeparatingAxes {
         })
     }
 
-    /// Middle and half extents against what is known of the frustum, until one separates.
+    /// Compares middle and half extents with the slabs along each axis, until one separates.
     pub(crate) fn meets_slabs(&self, volume: &Aabb<f32>) -> bool {
         let (min, max) = (volume.min.to_f64(), volume.max.to_f64());
         let (center, half) = ((min + max) * 0.5, (max - min) * 0.5);

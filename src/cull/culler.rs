@@ -298,7 +298,7 @@ impl Culler {
     /// let answer = culler.classify_masked(room, all, &mut hint)?;
     /// assert_eq!(answer.containment, Containment::Crossing);
     /// assert_eq!(answer.faces.to_string(), "far");
-    /// // What is in the room is tested against one face.
+    /// // A lamp in the room is tested against that face alone.
     /// let lamp = Aabb::new([1.4, -0.1, 3.5], [1.6, 0.1, 3.9]);
     /// let answer = culler.classify_masked(lamp, answer.faces, &mut hint)?;
     /// assert_eq!((answer.containment, hint), (Containment::Outside, Some(Face::Far)));

@@ -51,7 +51,7 @@ impl Culler {
     /// As [`Culler::clip_intervals`], on rayon's threads.
     ///
     /// # Errors
-    /// The same as there.
+    /// Those of [`Culler::clip_intervals`].
     pub fn par_clip_intervals<'a, T: Real>(
         &self,
         segments: impl Into<Segments<'a, T>>,

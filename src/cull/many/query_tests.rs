@@ -88,7 +88,7 @@ fn check<S: VolumeSource + Copy + Sync>(
     assert_eq!(masks.len(), expected.len(), "{name}");
     let of_masks = (0..expected.len()).filter_map(|i| masks.get(i));
     assert!(of_masks.eq(expected.iter().copied()), "{name}");
-    // What touches is decided one by one, and without `inside` no more than with it.
+    // Volumes that touch are decided one by one; fewer of them where `inside` does not matter.
     assert!(for_list.undecided > 0, "{name}");
     assert!(for_list.undecided <= for_classes.undecided, "{name}");
     assert_eq!(for_classes, for_masks, "{name}");

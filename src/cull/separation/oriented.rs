@@ -34,8 +34,9 @@ const GAP_RELATIVE_ERROR: f64 = 64.0 * f64::UNIT_ROUNDOFF;
 #[derive(Clone, Debug)]
 pub(super) struct Oriented {
     hull: Hull,
-    /// Of the pose.
+    /// The axes of the pose.
     axes: [Vec3<f64>; 3],
+    /// The origin of the pose.
     origin: Vec3<f64>,
     /// Coordinates of the vertices in the frame; an infinite frustum has each twice.
     vertices: [[f64; 8]; 3],
