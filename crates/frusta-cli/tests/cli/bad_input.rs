@@ -113,7 +113,7 @@ fn gltf_documents() {
         (
             "/nodes/1",
             json!({"children": [0]}),
-            "node 0 hangs in the scene twice",
+            "node 0 is in the scene twice",
         ),
         (
             "/nodes/0/children",
@@ -420,7 +420,7 @@ fn files_and_flags() {
     refuse(
         &folder,
         &[&folder.name("a.step")],
-        &["a.step", "expected .glb, .gltf, .obj, .stl", "--from"],
+        &["a.step", "expected .gltf .glb .obj .stl", "--from"],
     );
     refuse(
         &folder,
