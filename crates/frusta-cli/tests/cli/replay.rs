@@ -159,8 +159,8 @@ fn bad_lines_are_one_error_with_their_place() {
     fail(&["f64 near 1 2"], &["the line: column 13", "near.right"]);
     fail(&["f64 near 1 x"], &["column 12", "near.left", "\"x\""]);
     fail(&["none.txt"], &["none.txt"]);
-    fail(&[""], &["no file", "f64 or f32"]);
-    fail(&[&TOUCH[4..]], &["no file", "f64 or f32"]);
+    fail(&[""], &["not a file", "f64 or f32"]);
+    fail(&[&TOUCH[4..]], &["not a file", "f64 or f32"]);
     fail(&[&folder.name("")], &["directory"]);
     let out = folder.name("out");
     for (content, part) in [
