@@ -118,7 +118,7 @@ fn gltf_documents() {
         (
             "/nodes/0/children",
             json!([1, 1]),
-            "node 1 hangs in the scene twice",
+            "node 1 is in the scene twice",
         ),
         ("/nodes/1/mesh", json!(7), "nodes[1].mesh"),
         ("/nodes/1/scale", json!([1e39, 1, 1]), "number out of range"),
