@@ -173,7 +173,7 @@ fn gltf_documents() {
         (
             "/buffers/0/byteLength",
             json!(1_000_000),
-            "byteLength is 1000000; 120 bytes are there",
+            "byteLength is 1000000; there are 120 bytes",
         ),
         (
             "/buffers/0/uri",
