@@ -87,7 +87,8 @@ fn read_all(input: &Input, options: ReadOptions, count: &mut Count) -> Result<()
             rows.blocks(|block| {
                 doubles.clear();
                 singles.clear();
-                let fail = |(line, why)| Failure::at(input.name(), format_args!("line {line}"), why);
+                let fail =
+                    |(line, why)| Failure::at(input.name(), format_args!("line {line}"), why);
                 // What is too large for `f32` may be an `f64`.
                 match (block.parse(&mut doubles), block.parse(&mut singles)) {
                     (Err(e), Ok(())) => panic!("f32, but no f64: {e:?}"),

@@ -27,7 +27,7 @@ use std::process::ExitCode;
 
 /// Clipping and culling against view frusta, exactly.
 #[derive(Parser)]
-#[command(version, max_term_width = 100, after_help = format!("{EXIT_CODES}\n\n{START}"))]
+#[command(name = "frusta", version, max_term_width = 100, after_help = format!("{EXIT_CODES}\n\n{START}"))]
 struct Cli {
     #[command(subcommand)]
     command: Command,

@@ -288,7 +288,7 @@ impl<'a> Text<'a> {
         let name = ["x", "y", "z"][self.coordinates.len() % 3];
         let value = number::parse_finite(word).map_err(|why| format!("vertex: {name}: {why}"))?;
         self.coordinates.push(value);
-        if self.coordinates.len() % 3 == 0 {
+        if self.coordinates.len().is_multiple_of(3) {
             self.state = State::Loop;
         }
         Ok(())

@@ -113,12 +113,12 @@ fn gltf_documents() {
         (
             "/nodes/1",
             json!({"children": [0]}),
-            "node 0 hangs in the scene twice",
+            "node 0 is in the scene twice",
         ),
         (
             "/nodes/0/children",
             json!([1, 1]),
-            "node 1 hangs in the scene twice",
+            "node 1 is in the scene twice",
         ),
         ("/nodes/1/mesh", json!(7), "nodes[1].mesh"),
         ("/nodes/1/scale", json!([1e39, 1, 1]), "number out of range"),
@@ -173,7 +173,7 @@ fn gltf_documents() {
         (
             "/buffers/0/byteLength",
             json!(1_000_000),
-            "byteLength is 1000000; 120 bytes are there",
+            "byteLength is 1000000; there are 120 bytes",
         ),
         (
             "/buffers/0/uri",
@@ -420,7 +420,7 @@ fn files_and_flags() {
     refuse(
         &folder,
         &[&folder.name("a.step")],
-        &["a.step", "expected .glb, .gltf, .obj, .stl", "--from"],
+        &["a.step", "expected .gltf .glb .obj .stl", "--from"],
     );
     refuse(
         &folder,

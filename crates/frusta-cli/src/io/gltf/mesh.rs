@@ -88,7 +88,7 @@ pub(super) fn read(
         let mut read = || {
             let accessor = source.positions.ok_or("it has no POSITION attribute")?;
             let points = positions.get(accessor)?;
-            let base = parts.base(accessor, points)?;
+            let base = parts.base(accessor, points, source.primitive)?;
             let indices = match source.indices {
                 Some(accessor) => data.indices(accessor, points.len())?,
                 None => (0..points.len() as u32).collect(),
@@ -121,15 +121,21 @@ pub(super) fn read(
 struct Parts<'a> {
     /// Where an accessor's vertices begin.
     bases: HashMap<usize, u32>,
-    /// First vertices and their accessors' points, in order.
-    parts: Vec<(u32, &'a Positions<'a>)>,
+    /// First vertices, their accessors' points and, for messages, the first primitives that
+    /// use them; in order.
+    parts: Vec<(u32, &'a Positions<'a>, usize)>,
     /// Number of vertices.
     len: u32,
 }
 
 impl<'a> Parts<'a> {
     /// The first vertex of an accessor.
-    fn base(&mut self, accessor: usize, points: &'a Positions<'a>) -> Result<u32, String> {
+    fn base(
+        &mut self,
+        accessor: usize,
+        points: &'a Positions<'a>,
+        primitive: usize,
+    ) -> Result<u32, String> {
         match self.bases.entry(accessor) {
             Entry::Occupied(known) => Ok(*known.get()),
             Entry::Vacant(new) => {
@@ -137,7 +143,7 @@ impl<'a> Parts<'a> {
                 let end = u64::from(self.len) + count;
                 let end = u32::try_from(end).map_err(|_| format!("{count} points are too many"))?;
                 let base = std::mem::replace(&mut self.len, end);
-                self.parts.push((base, points));
+                self.parts.push((base, points, primitive));
                 Ok(*new.insert(base))
             }
         }
@@ -147,11 +153,12 @@ impl<'a> Parts<'a> {
     fn decode(&self, vertices: &[u32]) -> Result<Vec<Vec3<f64>>, String> {
         let mut points = Vec::with_capacity(vertices.len());
         let mut rest = vertices;
-        for (i, &(base, positions)) in self.parts.iter().enumerate() {
+        for (i, &(base, positions, primitive)) in self.parts.iter().enumerate() {
             let end = self.parts.get(i + 1).map_or(self.len, |next| next.0);
             let (own, others) = rest.split_at(rest.partition_point(|&v| v < end));
             for &vertex in own {
-                points.push(positions.point(vertex - base)?);
+                let point = positions.point(vertex - base);
+                points.push(point.map_err(|why| format!("primitive {primitive}: {why}"))?);
             }
             rest = others;
         }

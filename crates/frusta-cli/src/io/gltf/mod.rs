@@ -83,9 +83,9 @@ fn read_from(
 ) -> Result<Scene, Failure> {
     let (Document { root, text }, blob) = container::read(file, reader, size)?;
     let root = validated(file, root)?;
-    let data = Data::load(file, &root, blob.as_deref())?;
     let placed = nodes::place(&root, &text).map_err(|why| Failure::in_file(file, why))?;
     drop(text);
+    let data = Data::load(file, &root, blob.as_deref())?;
     let kind = choice.unwrap_or_else(|| default_kind(&root, &placed));
     read_scene(file, &root, &data, placed, kind)
 }
