@@ -64,13 +64,13 @@ fn everyday(everyday: &Everyday) -> String {
         (Some(single), Some(slices)) => format!(
             "On everyday segments exact V/W takes {} the time of textbook Liang-Barsky in plain \
              f64 with one call a segment, and {} over slices.",
-            times(single),
-            times(slices)
+            single.times(),
+            slices.times()
         ),
         (Some(single), None) => format!(
             "On everyday segments exact V/W takes {} the time of textbook Liang-Barsky in plain \
              f64; the times over slices are too noisy to be stated.",
-            times(single)
+            single.times()
         ),
         _ => NOISY.replace("{}", "everyday segments"),
     }
@@ -90,9 +90,9 @@ fn hard_cases(survey: &Survey) -> String {
         return NOISY.replace("{}", "the hard families");
     };
     let mut text = format!(
-        "On the hard families, where at least half of the cases are next to singular, it takes {} \
-         that time",
-        times(exact)
+        "On the hard families, where at least half of the cases are next to singular, exact V/W takes \
+         {} the time of textbook Liang-Barsky",
+        exact.times()
     );
     let both = rows(SurveyTier::ExactFast).zip(rows(SurveyTier::PlainF64));
     let pairs = both.map(|(a, b)| [a.time_ratio, b.time_ratio]);
@@ -101,19 +101,41 @@ fn hard_cases(survey: &Survey) -> String {
     if let Some(price) = mean(ratios) {
         text += &format!(
             ", {} times that of the same algorithm in plain arithmetic",
-            figure(price.median)
+            figure(price.spread.median)
         );
     }
     text + "."
 }
 
-/// The geometric mean of the ratios that are not noisy.
-fn mean(ratios: impl Iterator<Item = Spread>) -> Option<Spread> {
-    Spread::geometric_mean(ratios.filter(|ratio| !ratio.is_noisy()))
+/// A mean of ratios.
+struct Mean {
+    spread: Spread,
+    /// How many ratios were left out because they are noisy, and how many there were.
+    noisy: [usize; 2],
 }
 
-/// A ratio with its quartiles.
-fn times(spread: Spread) -> String {
-    let [lower, median, upper] = [spread.lower, spread.median, spread.upper].map(figure);
-    format!("{median} times [{lower} to {upper}]")
+/// The geometric mean of the ratios that are not noisy.
+fn mean(ratios: impl Iterator<Item = Spread>) -> Option<Mean> {
+    let all: Vec<Spread> = ratios.collect();
+    let quiet: Vec<Spread> = all.iter().filter(|r| !r.is_noisy()).copied().collect();
+    let noisy = [all.len() - quiet.len(), all.len()];
+    let spread = Spread::geometric_mean(quiet)?;
+    Some(Mean { spread, noisy })
+}
+
+impl Mean {
+    /// In words, with quartiles.
+    fn times(&self) -> String {
+        let Spread {
+            lower,
+            median,
+            upper,
+        } = self.spread;
+        let [lower, median, upper] = [lower, median, upper].map(figure);
+        let range = format!("{median} times [{lower} to {upper}]");
+        match self.noisy {
+            [0, _] => range,
+            [noisy, all] => format!("{range} ({noisy} of {all} ratios are noisy and left out)"),
+        }
+    }
 }
