@@ -13,11 +13,11 @@ mod volumes;
 
 use arbitrary::Unstructured;
 use case::Case;
-use frusta_lab::{CaseLine, CaseSegment, check};
 use frusta::{
     CohenSutherland, CyrusBeck, Frustum, LiangBarsky, LiangBarskyVariant, Real, Segment,
     SegmentClipper, SixPlanes, VwProjection,
 };
+use frusta_lab::{CaseLine, CaseSegment, check};
 
 /// Exact answers about a structured case: all guarantees, in `f64` and `f32`, and
 /// from slices the bits of single calls.

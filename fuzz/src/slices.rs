@@ -121,7 +121,11 @@ impl<'a, T: Real> Expected<'a, T> {
             context()
         );
         for (i, (clip, single)) in clips.iter().zip(&order).enumerate() {
-            assert!(single.answer == Ok(bits(clip)), "{i}: {clip:?}\n{}", context());
+            assert!(
+                single.answer == Ok(bits(clip)),
+                "{i}: {clip:?}\n{}",
+                context()
+            );
         }
         let expected: StageCounts = order.iter().map(|single| single.counts).sum();
         assert_eq!(counts, expected, "{}", context());
