@@ -100,7 +100,8 @@
 //! - **G3** points to the requested [`Accuracy`];
 //! - **G4** with [`Accuracy::Inward`], points in the frustum, where any
 //!   representable point near is (see `PartEnd::inward`);
-//! - **G5** the swapped result for swapped ends, bit for bit;
+//! - **G5** the swapped result for swapped ends, bit for bit, except parameters, which are measured
+//!   from the start;
 //! - **G6** `Inward` results, `inward` at both ends, that clip to themselves;
 //! - **G8** the same bits with every algorithm, on every platform and number of
 //!   threads, one by one or in slices, with SIMD or without.
