@@ -55,12 +55,12 @@ pub struct Row {
     pub time_ratio_quartiles: Option<[f64; 2]>,
     /// The same of exact-class V/W in `f32`; null for boxes.
     pub time_ratio_f32: Option<f64>,
-    /// The same of exact-class V/W in `f64` over slices; for boxes, of `Culler::visible_boxes` of
+    /// The same of exact-class V/W in `f64` over slices; for boxes, of `Culler::over(..).visible(..)` of
     /// a set.
     pub time_ratio_slices: Option<f64>,
     /// The same of exact-class V/W in `f32` over slices; null for boxes.
     pub time_ratio_slices_f32: Option<f64>,
-    /// For boxes, the same of `Culler::visible_boxes` of a plain slice; null for other jobs.
+    /// For boxes, the same of `Culler::over(..).visible(..)` of a plain slice; null for other jobs.
     pub time_ratio_boxes: Option<f64>,
     /// Wrong answers: phantom, missed, misplaced and refused.
     pub wrong: Option<u64>,

@@ -47,9 +47,9 @@ impl Peer for OursPoint {
 /// What times of one call a box are compared with.
 pub const REFERENCE_BOX: &str = "Culler::classify";
 /// What times of lists are compared with: the list of boxes that are kept.
-pub const REFERENCE_BOXES: &str = "Culler::visible_boxes, a set";
+pub const REFERENCE_BOXES: &str = "Culler::over, visible in a set";
 /// What times of lists are compared with, too: the list of a plain slice of boxes.
-pub const REFERENCE_SLICE: &str = "Culler::visible_boxes, slice";
+pub const REFERENCE_SLICE: &str = "Culler::over, visible in a slice";
 
 /// `Culler::classify`, plane by plane, or `Culler::classify_exact`.
 pub struct OursBox {
@@ -202,7 +202,7 @@ impl Timed for OursBatch {
                 Batch::Masks => "Culler::over, masks of arrays",
                 Batch::MasksOfSet => "Culler::over, masks of a set",
                 Batch::ListOfSet => REFERENCE_BOXES,
-                Batch::List => "Culler::visible_boxes, arrays",
+                Batch::List => "Culler::over, visible in arrays",
                 Batch::ListOfBoxes => REFERENCE_SLICE,
             },
             scalar: "f32",

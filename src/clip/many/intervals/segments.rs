@@ -7,7 +7,7 @@ use std::ops::Range;
 /// Segments as six arrays of coordinates, or as a slice.
 ///
 /// ```
-/// use frusta::cull::{SegmentArrays, Segments};
+/// use frusta::clip::{SegmentArrays, Segments};
 /// use frusta::Segment;
 /// let (zero, one) = ([0.0_f32; 3], [1.0; 3]);
 /// let arrays = SegmentArrays { start: [&zero; 3], end: [&one, &one, &zero] };
