@@ -46,7 +46,7 @@ TESTS = [
 ]
 # Volumes and batches have their own.
 VOLUME_TESTS = [("volumes", []), ("frusta", ["cull::"]), ("regressions", [])]
-# Slices are compared with single calls first.
+# Slices are compared with single calls first. So are the rules that all share.
 SLICE_TESTS = [("frusta", ["clip::many::"]), *TESTS]
 INTERVAL_TESTS = [("frusta", ["clip::many::intervals::", "cull::"]), ("volumes", [])]
 SECONDS = 300
@@ -184,7 +184,7 @@ def killer(binaries, number, tests=TESTS):
 def tests_of(file):
     if file.startswith("src/clip/many/intervals/"):
         return INTERVAL_TESTS
-    if file.startswith("src/clip/many/"):
+    if file.startswith(("src/clip/many/", "src/clip/rules/", "src/clip/whole")):
         return SLICE_TESTS
     if file.startswith(("src/cull/", "src/frustum/eval/half_space")):
         return VOLUME_TESTS
