@@ -31,7 +31,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 TREE = ROOT / "target/mutants/tree"
-COPIED = ["Cargo.toml", "Cargo.lock", "README.md", "benches", "crates", "docs", "src", "tests"]
+COPIED = ["Cargo.toml", "Cargo.lock", "README.md", "benches", "crates", "docs", "examples", "src", "tests"]
 # Quickest to fail first. The library's tests without those of tables.
 TESTS = [
     ("differential", []),
