@@ -26,16 +26,11 @@ use crate::exact::Number;
 use crate::exact::double_double::Dd;
 use crate::exact::dyadic::Dyadic;
 use crate::exact::expansion::{Expansion, in_safe_range};
-use crate::exact::float::Lanes;
+use crate::exact::float::{Lanes, exp2};
 use crate::frustum::eval::boundary::boundary;
 use crate::frustum::{Face, Frustum};
 use crate::math::{Real, Vec3};
 use std::cmp::Ordering;
-
-/// 2^exponent, for a normal value.
-pub(crate) const fn exp2(exponent: i32) -> f64 {
-    f64::from_bits(((exponent + 1023) as u64) << 52)
-}
 
 /// Bounds a rounded value's error relative to S and |d|: 8 u, where 4.01 u and 3.01 u are needed.
 const VALUE_RELATIVE_ERROR: f64 = 8.0 * f64::UNIT_ROUNDOFF;

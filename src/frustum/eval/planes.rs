@@ -5,7 +5,8 @@
 //! the unit roundoff of `T`, a value is off by less than `8 u S + 8 u |d|`, plus what underflow
 //! does (see `cull/many/boxes.rs` and `cull/many/spheres.rs`).
 
-use crate::frustum::eval::half_space::{HalfSpace, exp2};
+use crate::exact::float::exp2;
+use crate::frustum::eval::half_space::HalfSpace;
 use crate::math::{PerReal, Real, Vec3};
 
 /// A half space `normal . p + offset >= 0`.

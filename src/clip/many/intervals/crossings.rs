@@ -12,7 +12,7 @@
 //! # One difference for near and far
 //! Their values rise and fall together: one of them is entered, the other left. The difference of
 //! near's values stands for both, so that far's parameter is off by 7.2 u S + 4.2 u |d| over it
-//! (`proofs/half_space.gappa`), of the 8 of each that a threshold has (`frustum.rs`). So it is on the
+//! (`proofs/half_space.gappa`), of the 8 of each that a threshold has (`frustum_lanes.rs`). So it is on the
 //! right side, too: where far is crossed both its values are beyond their threshold. And
 //! the difference is off by less than a quarter of that, so that it is not less than the
 //! larger of far's values, to which the smaller one adds.

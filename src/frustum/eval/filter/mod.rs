@@ -219,7 +219,7 @@ impl Filter {
 
     /// The distance from a face beyond which this filter is certain of both ends of a segment,
     /// in units of the largest magnitude in the face's normal (see
-    /// `clip/many/intervals/planes.rs`).
+    /// `clip/many/intervals/frustum_lanes.rs`).
     pub(crate) fn certain_beyond(&self) -> Beyond {
         let never = Beyond {
             constant: f64::INFINITY,
