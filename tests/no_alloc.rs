@@ -193,7 +193,7 @@ fn only_big_integers_allocate_in_any_family() {
     assert!(tally.with > 100, "{tally:?}");
 }
 
-/// Queries over many volumes, from every source, write to buffers that were used before.
+/// Queries over many volumes, from every kind of source, write to buffers that were used before.
 #[test]
 fn queries_over_many_volumes_allocate_nothing() {
     fn assert_query<S: VolumeSource + Copy>(culler: &Culler, source: S, count: usize) {

@@ -24,7 +24,10 @@ pub struct VolumeCounts {
     pub expansions: u64,
     /// Signs taken from big integers.
     pub integers: u64,
-    /// Volumes that are crossing plane by plane, which the exact test was run on.
+    /// Volumes that are crossing plane by plane and that [`Culler::classify_exact`] had to look at
+    /// further.
+    ///
+    /// [`Culler::classify_exact`]: crate::Culler::classify_exact
     pub exact_tests: u64,
     /// Those of them that the exact test found to be outside.
     pub false_accepts: u64,

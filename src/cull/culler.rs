@@ -148,14 +148,13 @@ fn lesser(pair: f64x2) -> f64 {
     if b < a { b } else { a }
 }
 
-/// The position of a volume relative to a frustum, and the faces that matter to what is in the
-/// volume.
+/// The position of a volume relative to a frustum, and the faces that matter for its content.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct MaskedContainment {
     /// The class by all faces, if the volume is inside of those that were not given.
     pub containment: Containment,
-    /// The given faces that the volume is not wholly inside of: what is in the volume need be
-    /// tested against these alone. All given faces if it is outside.
+    /// The given faces that the volume is not wholly inside of: its content needs to be tested
+    /// against these alone. All given faces if it is outside.
     pub faces: FaceSet,
 }
 

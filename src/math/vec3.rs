@@ -142,7 +142,7 @@ impl<T> Index<usize> for Vec3<T> {
             0 => &self.x,
             1 => &self.y,
             2 => &self.z,
-            _ => panic!("a vector has coordinates 0, 1, 2; asked for {i}"),
+            _ => panic!("a vector has coordinates 0, 1 and 2, not {i}"),
         }
     }
 }
@@ -154,7 +154,7 @@ impl<T> IndexMut<usize> for Vec3<T> {
             0 => &mut self.x,
             1 => &mut self.y,
             2 => &mut self.z,
-            _ => panic!("a vector has coordinates 0, 1, 2; asked for {i}"),
+            _ => panic!("a vector has coordinates 0, 1 and 2, not {i}"),
         }
     }
 }

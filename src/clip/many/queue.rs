@@ -8,11 +8,11 @@ pub(super) const BLOCK: usize = 256;
 /// Capacity of a queue: more than a block fills, as items that are offered and not taken are
 /// written to the next free place all the same. A power of two, by which a place is brought into
 /// an array's range in one operation.
-pub(super) const CAPACITY: usize = 2 * BLOCK;
+pub(super) const QUEUE_CAPACITY: usize = 2 * BLOCK;
 
 /// At most as many items as a block has segments.
 pub(super) struct Queue<I> {
-    items: [I; CAPACITY],
+    items: [I; QUEUE_CAPACITY],
     len: usize,
 }
 
@@ -22,7 +22,7 @@ macro_rules! empty {
         impl Queue<$item> {
             pub(super) const fn new() -> Self {
                 Self {
-                    items: [0; CAPACITY],
+                    items: [0; QUEUE_CAPACITY],
                     len: 0,
                 }
             }
@@ -51,7 +51,7 @@ impl<I: Copy> Queue<I> {
     /// Appends an item if the condition holds.
     #[inline(always)]
     pub(super) fn push_if(&mut self, item: I, condition: bool) {
-        self.items[self.len % CAPACITY] = item;
+        self.items[self.len % QUEUE_CAPACITY] = item;
         self.len += usize::from(condition);
     }
 
@@ -102,7 +102,7 @@ impl Queue<u16> {
     /// The item at a place, as an index into a block.
     #[inline(always)]
     pub(super) fn at(&self, place: usize) -> usize {
-        usize::from(self.items[place % CAPACITY]) % BLOCK
+        usize::from(self.items[place % QUEUE_CAPACITY]) % BLOCK
     }
 }
 

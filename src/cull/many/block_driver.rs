@@ -99,7 +99,7 @@ pub(super) trait Volumes<T: Real, const K: usize> {
 }
 
 /// Classifies all volumes, block by block.
-pub(super) struct BlockDriver<'a, T, V> {
+pub struct BlockDriver<'a, T, V> {
     pub(super) culler: &'a Culler,
     pub(super) planes: &'a FacePlanes<T>,
     pub(super) volumes: &'a V,

@@ -34,7 +34,7 @@ use super::block_driver::{BLOCK, Block, BlockAnswers, BlockBits, Volumes, WORD, 
 use super::box_set::{BoxSet, Stored};
 use crate::cull::{Aabb, Volume};
 use crate::frustum::eval::plane_lanes::PlaneLanes;
-use crate::frustum::eval::planes::{FacePlanes, Plane};
+use crate::frustum::eval::planes::{FacePlane, FacePlanes};
 use crate::math::{Real, Vec3};
 use fearless_simd::prelude::*;
 #[cfg(feature = "parallel")]
@@ -350,7 +350,7 @@ fn first_faces<S, V, T, const N: usize, const INSIDE: bool>(
 #[inline(always)]
 fn last_faces<S, V, T, const N: usize>(
     simd: S,
-    planes: &[Plane<T>; 3],
+    planes: &[FacePlane<T>; 3],
     block: &Block<T, 6>,
     corners: [Corner; 3],
     so_far: &[T; BLOCK],

@@ -78,7 +78,7 @@ impl ContainmentMasks {
         })
     }
 
-    /// Makes room for the answers about `len` volumes, each to be written.
+    /// Resizes the masks for the answers about `len` volumes, each to be written.
     pub(super) fn prepare(&mut self, len: usize) -> MaskBits<'_> {
         let words = len.div_ceil(WORD);
         self.len = len;
@@ -122,6 +122,8 @@ pub(super) struct MaskBits<'a> {
 
 impl Sink for MaskBits<'_> {
     const INSIDE: bool = true;
+
+    super::output::run_relative!();
 
     #[inline(always)]
     fn take(&mut self, _count: usize, bits: BlockBits) {

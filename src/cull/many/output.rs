@@ -1,8 +1,9 @@
 //! Where a query's answers go: the three buffers of a caller, and the sinks that fill them.
 
 use super::ContainmentMasks;
-use super::block_driver::{BLOCK, BlockBits, WORD};
+use super::block_driver::{BLOCK, BlockBits, BlockDriver, WORD};
 use super::masks::visible;
+use super::relative::RelativeQuery;
 use super::source::Query;
 use crate::cull::{Containment, Culler, VolumeCounts, VolumeErrorAt};
 use crate::simd::compaction::PLACES;
@@ -18,7 +19,31 @@ pub trait Sink {
     /// Writes what is still held back after the last volume.
     #[inline(always)]
     fn finish(&mut self) {}
+
+    /// Runs a query over relative boxes. A sink is no generic type, so that this is compiled in
+    /// the library and not in every crate that asks.
+    fn run_relative(
+        &mut self,
+        driver: BlockDriver<'_, f32, RelativeQuery<'_>>,
+    ) -> Result<(), VolumeErrorAt>;
 }
+
+/// The body of [`Sink::run_relative`], which each sink has for itself.
+macro_rules! run_relative {
+    () => {
+        fn run_relative(
+            &mut self,
+            driver: crate::cull::many::block_driver::BlockDriver<
+                '_,
+                f32,
+                crate::cull::many::relative::RelativeQuery<'_>,
+            >,
+        ) -> Result<(), crate::cull::VolumeErrorAt> {
+            crate::cull::many::block_driver::run_f32(fearless_simd::Level::new(), driver, self)
+        }
+    };
+}
+pub(super) use run_relative;
 
 /// A caller's buffer.
 pub(super) trait Output {
@@ -138,6 +163,8 @@ pub(super) struct Classes<'a>(pub(super) &'a mut [Containment]);
 impl Sink for Classes<'_> {
     const INSIDE: bool = true;
 
+    run_relative!();
+
     #[inline(always)]
     fn take(&mut self, count: usize, bits: BlockBits) {
         let mut classes = [[Containment::Crossing; 4]; WORD / 4];
@@ -175,6 +202,8 @@ impl<'a> Indices<'a> {
 
 impl Sink for Indices<'_> {
     const INSIDE: bool = false;
+
+    run_relative!();
 
     /// A byte of bits at a time, without branches: which volumes are visible cannot be
     /// predicted.

@@ -19,8 +19,9 @@ pub(super) use sealed::{Query, Source};
 /// | source | `f32` and `f64` | speed |
 /// |---|---|---|
 /// | `&`[`BoxSet`] | both | fastest: checked and laid out once, for boxes that are kept |
-/// | `&`[`RelativeBoxes`] | `f64`, read as `f32` | as a `BoxSet<f32>`; for coordinates that need `f64` |
-/// | [`BoxArrays`], [`SphereArrays`] | both | a quarter more than a set |
+/// | `&`[`RelativeBoxes`] | `f64`, read as `f32` | as a `BoxSet<f32>`, and some microseconds a query; for coordinates that need `f64` |
+/// | [`BoxArrays`] | both | a quarter more than a set |
+/// | [`SphereArrays`] | both | fastest of spheres |
 /// | slices, `Vec`s and arrays of [`Aabb`] or [`Sphere`] | both | slowest: components are gathered |
 ///
 /// In `f32` twice as many volumes share a register as in `f64`.
@@ -188,6 +189,6 @@ impl Query for relative::RelativeQuery<'_> {
             volumes: self,
             counts,
         };
-        block_driver::run_f32(Level::new(), driver, out)
+        out.run_relative(driver)
     }
 }

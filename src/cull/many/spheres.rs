@@ -22,7 +22,7 @@
 
 use super::block_driver::{BLOCK, Block, BlockAnswers, BlockBits, Volumes, WORD, load};
 use crate::cull::{Sphere, Volume};
-use crate::frustum::eval::planes::{FacePlanes, Plane};
+use crate::frustum::eval::planes::{FacePlane, FacePlanes};
 use crate::math::{Real, Vec3};
 use fearless_simd::prelude::*;
 #[cfg(feature = "parallel")]
@@ -216,7 +216,7 @@ where
 
 /// The value at the center, and the reach.
 #[inline(always)]
-fn center_and_reach<S, V, T>(simd: S, plane: &Plane<T>, sphere: &[V; 4]) -> [V; 2]
+fn center_and_reach<S, V, T>(simd: S, plane: &FacePlane<T>, sphere: &[V; 4]) -> [V; 2]
 where
     S: Simd,
     T: Real,
@@ -242,7 +242,7 @@ where
     T: Real,
     V: SimdFloat<S, Element = T>,
 {
-    let from_zero = Plane {
+    let from_zero = FacePlane {
         offset: T::ZERO,
         ..planes.near
     };

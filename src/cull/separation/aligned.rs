@@ -7,7 +7,7 @@
 //! axis; so there are at most 24 of these, and six of the frustum's bounding box, less duplicates
 //! and those of faces. They are computed once, exactly, on first use; a box is separate exactly
 //! if one of them has all of it outside. That is the test of faces again, with the same filter,
-//! stages and corners (`half_space.rs`).
+//! stages and corners (`frustum/eval/half_space.rs`).
 //!
 //! ```text
 //! for each axis j of the world, in the frame: u

@@ -12,13 +12,13 @@
 //! ```text
 //! |g~ - g| <= 4.01 u S + 3.01 u |d|
 //! ```
-//! and the threshold is `T = 8 u S + 8 u |d| + UNDERFLOW_ERROR`, which leaves room for its own
+//! and the threshold is `T = 8 u S + 8 u |d| + HALF_SPACE_UNDERFLOW_ERROR`, which leaves room for its own
 //! rounding.
 //!
 //! # To 106 bits
 //! With a coefficient as a sum of two `f64` values within u^2, a product adds 3 u^2, three
 //! double-double sums add 3 u^2 each (`exact/double_double.rs`): 13.1 u^2 S + 4.1 u^2 |d|. The
-//! threshold is 2^-51 of the rounded one: 32 u^2 S + 32 u^2 |d| + 2^-51 UNDERFLOW_ERROR.
+//! threshold is 2^-51 of the rounded one: 32 u^2 S + 32 u^2 |d| + 2^-51 HALF_SPACE_UNDERFLOW_ERROR.
 //!
 //! A comparison is written with `>`, so that NaN and infinity fail it.
 
@@ -37,7 +37,7 @@ const VALUE_RELATIVE_ERROR: f64 = 8.0 * f64::UNIT_ROUNDOFF;
 /// The threshold of values of 106 bits relative to that of rounded ones: 32 u^2 / 8 u = 4 u.
 const DOUBLE_DOUBLE_TO_ROUNDED: f64 = 4.0 * f64::UNIT_ROUNDOFF;
 /// Bounds what underflow does to a value: far above 2^-1074, far below every size.
-const UNDERFLOW_ERROR: f64 = exp2(-900);
+const HALF_SPACE_UNDERFLOW_ERROR: f64 = exp2(-900);
 /// Bounds the offset: below it no intermediate value overflows while S is below it, too.
 pub(crate) const OFFSET_LIMIT: f64 = exp2(900);
 
@@ -114,7 +114,7 @@ impl HalfSpace {
             expands: fits && (0..4).all(whole),
             length: rounded(&square).sqrt(),
             constant: if certain {
-                VALUE_RELATIVE_ERROR * high[3].abs() + UNDERFLOW_ERROR
+                VALUE_RELATIVE_ERROR * high[3].abs() + HALF_SPACE_UNDERFLOW_ERROR
             } else {
                 f64::INFINITY
             },

@@ -1,6 +1,6 @@
 //! A half space `n . p + d >= 0`, the same one in each lane of a register.
 
-use crate::frustum::eval::planes::Plane;
+use crate::frustum::eval::planes::FacePlane;
 use crate::math::Real;
 use fearless_simd::prelude::*;
 
@@ -13,7 +13,7 @@ pub(crate) struct PlaneLanes<V> {
 
 impl<V: Copy> PlaneLanes<V> {
     #[inline(always)]
-    pub(crate) fn new<S: Simd, T: Real>(simd: S, plane: &Plane<T>) -> Self
+    pub(crate) fn new<S: Simd, T: Real>(simd: S, plane: &FacePlane<T>) -> Self
     where
         V: SimdFloat<S, Element = T>,
     {

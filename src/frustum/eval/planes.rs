@@ -11,7 +11,7 @@ use crate::math::{PerReal, Real, Vec3};
 
 /// A half space `normal . p + offset >= 0`.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Plane<T> {
+pub(crate) struct FacePlane<T> {
     pub(crate) normal: [T; 3],
     /// Which of a box's six components, the least coordinates and then the greatest, are the
     /// coordinates of the corner farthest along the normal; and those of the opposite corner.
@@ -26,9 +26,9 @@ pub(crate) struct Plane<T> {
 pub(crate) struct FacePlanes<T> {
     /// The near face, and the far one's offset: its normal is the negative of the near
     /// one's. Infinite where there is no far face.
-    pub(crate) near: Plane<T>,
+    pub(crate) near: FacePlane<T>,
     pub(crate) far: T,
-    pub(crate) sides: [Plane<T>; 4],
+    pub(crate) sides: [FacePlane<T>; 4],
     /// 8 u: bounds rounding errors relative to sizes.
     pub(crate) factor: T,
     /// The part of the threshold that does not depend on sizes; infinite where no value is
@@ -63,7 +63,7 @@ impl<T: Real> FacePlanes<T> {
     /// The normal and the offset of a face, by its index.
     #[inline(always)]
     pub(crate) fn face(&self, face: usize) -> ([T; 3], T) {
-        let Plane { normal, offset, .. } = self.near;
+        let FacePlane { normal, offset, .. } = self.near;
         match face {
             0 => (normal, offset),
             1 => (normal.map(|n| -n), self.far),
@@ -88,14 +88,14 @@ impl<T: Real> FacePlanes<T> {
         let plane = |h: &HalfSpace| {
             let [a, b, c, _] = h.rounded().map(T::from_f64);
             let d = T::from_f64(offset(h));
-            Plane {
+            FacePlane {
                 normal: [a, b, c],
                 corners: corners([0, 1, 2].map(|axis| h.points_up(axis))),
                 offset: d,
                 length: T::from_f64(h.length()),
             }
         };
-        let nothing = Plane {
+        let nothing = FacePlane {
             normal: [T::ZERO; 3],
             corners: corners([false; 3]),
             offset: T::ZERO,

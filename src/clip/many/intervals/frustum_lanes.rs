@@ -10,6 +10,7 @@
 //! of a parameter up to 1 besides its values' errors.
 
 use crate::clip::rules::certificate::ROUNDINGS;
+use crate::exact::float::exp2;
 use crate::frustum::eval::filter::Filter;
 use crate::frustum::eval::plane_lanes::PlaneLanes;
 use crate::frustum::eval::planes::FacePlanes;
@@ -121,7 +122,7 @@ impl<S: Simd, T: Real, V: SimdFloat<S, Element = T>> FrustumLanes<S, V> {
 /// Upper bound of the sizes for which nothing overflows.
 fn limit<T: Real>(filter: f64) -> T {
     let most = if T::DIGITS == 24 {
-        (1_u128 << 120) as f64
+        exp2(120)
     } else {
         f64::INFINITY
     };

@@ -1,6 +1,6 @@
 //! Blocks of segments on their way: see [`super`].
 
-use super::super::queue::{BLOCK, CAPACITY};
+use super::super::queue::{BLOCK, QUEUE_CAPACITY};
 use super::crossings::Crossings;
 use super::frustum_lanes::FrustumLanes;
 use super::parameters::Cut;
@@ -166,7 +166,7 @@ fn cross<S, T, V, const N: usize>(
 {
     let count = undecided.len.min(BLOCK);
     for at in (0..count).step_by(N) {
-        let ends = ends::<S, V, N, CAPACITY>(simd, undecided.coordinates.each_ref(), at);
+        let ends = ends::<S, V, N, QUEUE_CAPACITY>(simd, undecided.coordinates.each_ref(), at);
         let crossings = Crossings::new(lanes, &ends);
         let ([entry, exit], certain) = V::cut(faces, deferred, at..count, ends, &crossings);
         let entry = crossings.cut[0].select(entry, lanes.zero);

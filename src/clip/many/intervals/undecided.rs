@@ -1,6 +1,6 @@
 //! The segments of a block that triage leaves undecided, side by side.
 
-use super::super::queue::{BLOCK, CAPACITY, Queue};
+use super::super::queue::{BLOCK, QUEUE_CAPACITY, Queue};
 use super::triage::Triage;
 use crate::math::{Real, Segment, Vec3};
 use fearless_simd::prelude::*;
@@ -10,10 +10,10 @@ pub(super) struct Undecided<T> {
     /// How many there are.
     pub(super) len: usize,
     /// Their coordinates: starts, then ends.
-    pub(super) coordinates: [[T; CAPACITY]; 6],
+    pub(super) coordinates: [[T; QUEUE_CAPACITY]; 6],
     /// The parameters found for each: 1 and 0 if it is outside.
-    pub(super) t0: [T; CAPACITY],
-    pub(super) t1: [T; CAPACITY],
+    pub(super) t0: [T; QUEUE_CAPACITY],
+    pub(super) t1: [T; QUEUE_CAPACITY],
     /// Places of those that are not certain.
     pub(super) uncertain: Queue<u16>,
     /// Their indices in the block, once they are listed.
@@ -24,9 +24,9 @@ impl<T: Real> Undecided<T> {
     pub(super) fn new() -> Self {
         Self {
             len: 0,
-            coordinates: [[T::ZERO; CAPACITY]; 6],
-            t0: [T::ZERO; CAPACITY],
-            t1: [T::ZERO; CAPACITY],
+            coordinates: [[T::ZERO; QUEUE_CAPACITY]; 6],
+            t0: [T::ZERO; QUEUE_CAPACITY],
+            t1: [T::ZERO; QUEUE_CAPACITY],
             uncertain: Queue::<u16>::new(),
             indices: Queue::<u16>::new(),
         }
