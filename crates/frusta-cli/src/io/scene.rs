@@ -26,10 +26,11 @@ impl Transform {
     ]);
 
     /// Where a point goes.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn apply(&self, p: Vec3<f64>) -> Vec3<f64> {
-        let [x, y, z] = self.0.map(|[a, b, c, d]| a * p.x + b * p.y + c * p.z + d);
-        Vec3::new(x, y, z)
+        // No `map` over arrays: nested ones become calls, which took half of a run's time.
+        let row = |[a, b, c, d]: [f64; 4]| a * p.x + b * p.y + c * p.z + d;
+        Vec3::new(row(self.0[0]), row(self.0[1]), row(self.0[2]))
     }
 
     /// `self` after `inner`.
@@ -163,10 +164,10 @@ impl Scene {
             let from = (next - self.firsts[i]) as usize;
             let to = (last.min(self.firsts[i + 1]) - self.firsts[i]) as usize;
             let edges = mesh.edges[from..to].iter();
-            let ends = edges.map(|e| e.map(|v| mesh.points[v as usize]));
+            let ends = edges.map(|&[a, b]| [mesh.points[a as usize], mesh.points[b as usize]]);
             match &instance.transform {
-                None => out.extend(ends.map(|e| segment(e))),
-                Some(t) => out.extend(ends.map(|e| segment(e.map(|p| t.apply(p))))),
+                None => out.extend(ends.map(segment)),
+                Some(t) => out.extend(ends.map(|[a, b]| segment([t.apply(a), t.apply(b)]))),
             }
             next = self.firsts[i + 1];
             i += 1;
