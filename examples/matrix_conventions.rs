@@ -54,7 +54,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             .frustum
             .clip_segment(&edge)?
             .part
-            .ok_or("the edge is inside")?;
+            .ok_or("the edge is outside")?;
         println!(
             "{name}: the edge leaves through {} at y = {}; vertices off by at most {:e}",
             part.exit.faces, part.exit.point.y, found.deviation.sides
