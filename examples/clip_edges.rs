@@ -53,7 +53,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         );
     }
 
-    // Many at once into a buffer that is used again: the same bits, in less than half the time.
+    // Many at once into a buffer that is used again: the same bits, in less time.
     let mut clips = Vec::new();
     frustum.clip_segments(&edges, Accuracy::Fast, &mut clips)?;
     for (edge, clip) in edges.iter().zip(&clips) {

@@ -1,4 +1,4 @@
-//! Culls boxes of millimetres on a globe of 6,378 km: answers of `f64` in the time of `f32`.
+//! Culls boxes a few millimetres in size on a globe of 6,378 km: answers of `f64` in the time of `f32`.
 //!
 //! `cargo run --release --example large_world`
 
@@ -41,7 +41,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         assert_eq!(is_visible, visible.contains(&(i as u32)));
     }
 
-    // In f32 a coordinate up there has steps of half a metre: the screws are not even apart.
+    // In f32, x and z have steps of half a metre there and y of 1.6 cm: screws a centimetre apart
+    // fall together.
     let narrow = |b: &Aabb<f64>| (b.min.x as f32, b.min.y as f32);
     let mut places: Vec<_> = screws.iter().map(narrow).collect();
     places.dedup();

@@ -56,7 +56,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             .part
             .ok_or("the edge is outside")?;
         println!(
-            "{name}: the edge leaves through {} at y = {}; vertices off by at most {:e}",
+            "{name}: the edge leaves through {} at y = {}; sides off by at most {:e} in clip space",
             part.exit.faces, part.exit.point.y, found.deviation.sides
         );
         assert!(part.exit.faces.contains(Face::Top));

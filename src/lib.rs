@@ -1,7 +1,7 @@
 //! Exactly right and fast clipping and culling against view frusta.
 //!
 //! Every decision is the sign of an exact value: which edges a frustum cuts and by which faces, which
-//! boxes and spheres lie in view. That holds for every finite `f32` and `f64` input, however large,
+//! boxes and spheres its faces reject. That holds for every finite `f32` and `f64` input, however large,
 //! small or degenerate. Coordinates of points follow from the decisions, to an accuracy that is an
 //! argument. A frustum is a closed set: touching counts as meeting it, everywhere.
 //!
@@ -86,7 +86,7 @@
 //!
 //! | feature | adds |
 //! |---|---|
-//! | `parallel` | `.parallel()` on queries: rayon's threads, the same bits |
+//! | `parallel` | `.parallel()` on queries, `Culler::par_clip_intervals`: rayon's threads, the same bits |
 //! | `glam`, `nalgebra`, `mint` | conversions of points and matrices |
 //! | `serde`, `approx` | their traits |
 //! | `samples`, `oracle` | the modules above, for tests of clippers and cullers |
@@ -109,7 +109,7 @@
 //! (**G7**, how far an `Inward` end could still move outwards, is measured, not
 //! promised.) For volumes: exactly the class by face planes, or with
 //! [`Culler::classify_exact`] the exact class. A coordinate that is not finite is an error, never a
-//! panic. [`guarantees`] has the whole page.
+//! panic. [`guarantees`] explains each, and how it is known to hold.
 
 #![cfg_attr(docsrs, feature(doc_cfg))]
 

@@ -5,7 +5,7 @@
 //! |---|---|---|
 //! | one segment | class, points, parameters, face sets | [`Frustum::clip_segment`] |
 //! | one segment | the same, with a choice of [`Accuracy`] | [`Frustum::clip_segment_with`] |
-//! | a slice | the same for each segment, in half the time or less | [`Frustum::clip_segments`] |
+//! | a slice | the same for each segment, faster than one by one | [`Frustum::clip_segments`] |
 //! | a slice or arrays | class and parameters only, fastest | [`Culler::clip_intervals`] |
 //! | any of the first three | by a chosen algorithm | [`SegmentClipper`] |
 //!
@@ -117,7 +117,7 @@ pub trait SegmentClipper<T: Real> {
     /// order, with the same bits as from [`SegmentClipper::clip_segment`].
     ///
     /// [`VwProjection`] clips several at a time, in vector registers of the width
-    /// that this processor has: two to three times as fast as one by one. A buffer
+    /// that this processor has, which is faster than one by one. A buffer
     /// that is large enough is not allocated again; pieces of some thousand segments
     /// keep it in the processor's caches.
     ///
@@ -232,7 +232,7 @@ impl Frustum {
 
     /// The parts of a slice of segments: `clips` is cleared, then gets one clip for each
     /// segment, in order, with the same bits as from [`Frustum::clip_segment_with`], in
-    /// half the time or less.
+    /// less time.
     ///
     /// ```
     /// use frusta::{Accuracy, Class, EndRect, Frustum, Pose, Segment, Shape};

@@ -281,7 +281,7 @@ impl Culler {
     /// Classifies a volume of a tree by some faces, first by the one that rejected this volume
     /// last time.
     ///
-    /// Start at the root with [`Frustum::faces`], and give the children of a volume the `faces`
+    /// Start at the root with all of [`Frustum::faces`], and give the children of a volume the `faces`
     /// of its answer. Keep a `hint` for each volume from frame to frame: it is set to the face
     /// that rejects the volume, if one does. Neither changes an answer.
     ///
@@ -293,14 +293,14 @@ impl Culler {
     /// let culler = Culler::new(&frustum);
     /// let all: FaceSet = frustum.faces().iter().copied().collect();
     /// let room = Aabb::new([1.0, -1.0, 2.0], [2.0, 1.0, 4.0]);
-    /// let mut hint = None;
-    /// let answer = culler.classify_masked(room, all, &mut hint)?;
+    /// let (mut room_hint, mut lamp_hint) = (None, None);
+    /// let answer = culler.classify_masked(room, all, &mut room_hint)?;
     /// assert_eq!(answer.containment, Containment::Crossing);
     /// assert_eq!(answer.faces.to_string(), "far");
     /// // A lamp in the room is tested against that face alone.
     /// let lamp = Aabb::new([1.4, -0.1, 3.5], [1.6, 0.1, 3.9]);
-    /// let answer = culler.classify_masked(lamp, answer.faces, &mut hint)?;
-    /// assert_eq!((answer.containment, hint), (Containment::Outside, Some(Face::Far)));
+    /// let answer = culler.classify_masked(lamp, answer.faces, &mut lamp_hint)?;
+    /// assert_eq!((answer.containment, lamp_hint), (Containment::Outside, Some(Face::Far)));
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     ///

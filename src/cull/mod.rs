@@ -1,8 +1,8 @@
 //! Bounding volumes against a frustum: outside, crossing or inside, decided exactly.
 //!
-//! A program asks it which objects can be visible, by their bounding boxes or spheres, before it
-//! draws them, picks among them or loads them. [`Culler`] is a frustum that is prepared for
-//! this; its page says which call one wants.
+//! Use it to find which objects can be visible, by their bounding boxes or spheres, before they
+//! are drawn, picked or loaded. [`Culler`] is a frustum that is prepared for this; its page lists
+//! the calls.
 //!
 //! ```
 //! use frusta::cull::{Aabb, Containment, Culler, Sphere};

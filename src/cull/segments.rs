@@ -13,9 +13,9 @@ impl Culler {
     /// Finds the class of each of many segments, and the parameters between which it is in
     /// the frustum: to the bit those of [`Frustum::clip_segment`](crate::Frustum::clip_segment).
     ///
-    /// In `f32` eight or sixteen segments share a register, and take at most a third of the
-    /// time of [`Frustum::clip_segments`](crate::Frustum::clip_segments), which finds points
-    /// and faces, too.
+    /// In `f32` eight or sixteen segments share a register. It is faster than
+    /// [`Frustum::clip_segments`](crate::Frustum::clip_segments), which finds points and faces,
+    /// too; `benches/README.md` has figures.
     ///
     /// ```
     /// use frusta::clip::{SegmentArrays, SegmentIntervals};

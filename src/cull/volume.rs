@@ -82,7 +82,13 @@ pub enum Volume {
 pub enum Containment {
     /// The two have no point in common.
     Outside,
-    /// Neither outside nor inside.
+    /// Neither rejected nor inside. From [`Culler::classify`] and [`Culler::over`] the volume may
+    /// still be separate from the frustum, beyond an edge or a corner; from
+    /// [`Culler::classify_exact`] the two meet.
+    ///
+    /// [`Culler::classify`]: crate::Culler::classify
+    /// [`Culler::over`]: crate::Culler::over
+    /// [`Culler::classify_exact`]: crate::Culler::classify_exact
     Crossing,
     /// The frustum contains the volume, which may touch its surface from inside.
     Inside,

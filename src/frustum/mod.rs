@@ -1,7 +1,7 @@
 //! View frusta: their canonical form and the constructors.
 //!
 //! A [`Frustum`] is a closed convex set, defined exactly by a [`Pose`] (a frame in the
-//! world) and a [`Shape`] in that frame: two rectangles, or one rectangle that grows without end. All
+//! world) and a [`Shape`] in that frame: two rectangles, or one rectangle swept to infinity. All
 //! clipping and culling in this crate is relative to one.
 //!
 //! | given | constructor |
@@ -9,12 +9,12 @@
 //! | eye, target, field of view or view rectangle | [`Camera::frustum`] |
 //! | a view-projection matrix | [`ViewProjection::frustum`] |
 //! | two rectangles, in any frame | [`Frustum::new`] |
-//! | six points, as in the projection-reduction paper | [`SixPoints::frustum`] |
+//! | six points, as in "View Frustum Culling Geometric Algorithm" (the paper of projection reduction) | [`SixPoints::frustum`] |
 //! | another frustum, for a pick box, a tile or one eye of a stereo pair | [`Frustum::window`], [`Frustum::tile`], [`Frustum::stereo_eye`] |
 //!
 //! If both a camera and a matrix are available, prefer the [`Camera`]: it keeps the near and far
-//! distances as given, while the entries of a matrix have been rounded already. Each constructor states
-//! its own error bound; after that the stored numbers *are* the frustum, and no answer depends on what
+//! distances as given, while the entries of a matrix have been rounded already. The constructors
+//! that round state their error bound; after that the stored numbers *are* the frustum, and no answer depends on what
 //! they were rounded from.
 //!
 //! ```

@@ -6,7 +6,8 @@ use super::source::{Query, VolumeSource};
 use crate::cull::{Containment, Culler, VolumeCounts, VolumeErrorAt};
 
 impl Culler {
-    /// Starts a query over many volumes: each answer is that of [`Culler::classify`].
+    /// Starts a query over many axis-aligned boxes or spheres: each answer is that of
+    /// [`Culler::classify`], which takes oriented boxes, too.
     ///
     /// A query takes options, [`parallel`](VolumeQuery::parallel) and
     /// [`counted`](VolumeQuery::counted), then writes one output:
@@ -102,7 +103,7 @@ impl<'q, S: VolumeSource> VolumeQuery<'q, S> {
         self
     }
 
-    /// Writes the indices of the volumes that are not outside, in ascending order.
+    /// Writes the indices of the volumes that are not outside, in the order of the source.
     ///
     /// Whether a volume is inside need not be decided, so this takes a third less time than
     /// classes. Beyond 2^32 volumes indices start again at 0.

@@ -76,7 +76,7 @@ fn read(input: &Input, choice: Option<EdgeChoice>) -> Result<Scene, Failure> {
 }
 
 /// Whether a file is a text: it begins like one, and its length is not that of a
-/// binary one. Of a pipe's length nothing is known; there a beginning without a
+/// binary one. The length of a pipe is unknown; there a beginning without a
 /// zero byte must do: binary ones have one in their count below 2^24 triangles, and
 /// in attributes beyond.
 fn is_text(start: &[u8], size: Option<u64>) -> bool {

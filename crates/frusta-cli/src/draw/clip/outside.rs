@@ -19,8 +19,8 @@ use crate::failure::Failure;
 use crate::io::Bounds;
 use frusta::{EndRect, Frustum, Pose, Shape, Vec3};
 
-/// From the solid's middle to the viewer: right, up, forward. Of a camera with
-/// less than 110 degrees no side is seen edge-on.
+/// From the solid's middle to the viewer: right, up, forward. If the camera has
+/// less than 110 degrees, no side is seen edge-on.
 const VIEWER: [f64; 3] = [0.83, 0.46, -0.31];
 /// The window's greatest size, of the solid's larger one.
 const WIDEST: f64 = 2.0;
