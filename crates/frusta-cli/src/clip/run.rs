@@ -11,6 +11,9 @@ use crate::terminal::progress_bar;
 use frusta::{Frustum, Segment, SegmentClip};
 use std::time::{Duration, Instant};
 
+/// Segments clipped at once: few enough that their clips stay in cache until they are formatted.
+const BLOCK: usize = 512;
+
 /// What to do.
 pub(super) struct Run<'a, T> {
     pub(super) engine: Engine<T>,
@@ -21,8 +24,9 @@ pub(super) struct Run<'a, T> {
 }
 
 /// A chunk, clipped and formatted.
+#[derive(Default)]
 struct Done {
-    formatted: Formatted,
+    formatted: Vec<Formatted>,
     counts: Counts,
     read: Duration,
     clip: Duration,
@@ -51,7 +55,9 @@ impl<'a, T: Scalar> Run<'a, T> {
             || self.worker(),
             |done: Done| {
                 let start = Instant::now();
-                writer.accept(&done.formatted)?;
+                done.formatted
+                    .iter()
+                    .try_for_each(|part| writer.accept(part))?;
                 counts.merge(&done.counts);
                 times.read += done.read;
                 times.clip += done.clip;
@@ -69,27 +75,28 @@ impl<'a, T: Scalar> Run<'a, T> {
         let mut segments: Vec<Segment<T>> = Vec::new();
         let mut clips: Vec<SegmentClip<T>> = Vec::new();
         move |(chunk, read)| {
-            let (first, position) = (chunk.first, chunk.position);
             let start = Instant::now();
+            let (mut first, position) = (chunk.first, chunk.position);
             self.source.load(chunk, &mut segments)?;
-            let loaded = Instant::now();
-            let mut counts = Counts::default();
-            let stages = &mut counts.stages;
-            let clipped = self
-                .engine
-                .clip(self.frustum, &segments, &mut clips, stages);
-            clipped.map_err(|at| self.source.failure(first + at.index as u64, at.found))?;
-            clips.iter().for_each(|clip| counts.add(clip));
-            let clipped = Instant::now();
-            let formatted = self.output.format(first, &segments, &clips);
-            Ok(Done {
-                formatted,
-                counts,
-                read: read + (loaded - start),
-                clip: clipped - loaded,
-                write: clipped.elapsed(),
+            let mut done = Done {
                 position,
-            })
+                read: read + start.elapsed(),
+                ..Done::default()
+            };
+            for block in segments.chunks(BLOCK) {
+                let start = Instant::now();
+                let stages = &mut done.counts.stages;
+                let clipped = self.engine.clip(self.frustum, block, &mut clips, stages);
+                clipped.map_err(|at| self.source.failure(first + at.index as u64, at.found))?;
+                clips.iter().for_each(|clip| done.counts.add(clip));
+                let clipped = Instant::now();
+                done.formatted
+                    .push(self.output.format(first, block, &clips));
+                done.clip += clipped - start;
+                done.write += clipped.elapsed();
+                first += block.len() as u64;
+            }
+            Ok(done)
         }
     }
 }

@@ -8,7 +8,7 @@ use crate::io::{
 use frusta::{NonFinite, Segment, Vec3};
 use std::sync::OnceLock;
 
-/// Segments in a chunk: few enough that a chunk's results stay in cache.
+/// Segments in a chunk: enough that handing them on costs nothing beside clipping them.
 const CHUNK: u64 = 4096;
 
 /// What to clip.

@@ -39,7 +39,6 @@ pub(crate) use png::png;
 pub(crate) use save::save;
 pub(crate) use segment::{Sizes, class_colour, draw as draw_segment};
 pub(crate) use spatial::{all_corners, draw as draw_spatial};
-pub(crate) use svg::escaped;
 pub(crate) use text::wrapped;
 
 use frusta::samples::{Feature, Solid};

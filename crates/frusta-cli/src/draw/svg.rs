@@ -167,14 +167,8 @@ impl fmt::Write for Value<'_> {
     }
 }
 
-/// Text for between tags. Control characters and noncharacters, which XML does not allow, become
-/// spaces.
-pub(crate) fn escaped(text: &str) -> String {
-    let mut out = String::with_capacity(text.len());
-    push_text(text, &mut out);
-    out
-}
-
+/// Appends text that stands between tags. Control characters and noncharacters, which XML does not
+/// allow, become spaces.
 fn push_text(text: &str, out: &mut String) {
     for c in text.chars() {
         match c {
@@ -221,6 +215,8 @@ mod tests {
 
     #[test]
     fn text_is_escaped() {
-        assert_eq!(escaped("a<b>&\u{7}c\u{ffff}"), "a&lt;b&gt;&amp; c ");
+        let mut svg = Svg::new();
+        svg.text("a<b>&\u{7}c\u{ffff}");
+        assert_eq!(svg.finish(), "a&lt;b&gt;&amp; c ");
     }
 }

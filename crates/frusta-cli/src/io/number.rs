@@ -57,9 +57,18 @@ pub(crate) fn parse_finite<T: Scalar>(text: &str) -> Result<T, String> {
 /// Appends the shortest decimal that reads back to the same bits.
 #[inline]
 pub(crate) fn write<T: Scalar>(value: T, out: &mut Vec<u8>) {
+    if value == T::ONE {
+        return out.push(b'1');
+    }
     let mut buffer = zmij::Buffer::new();
     let text = buffer.format_finite(value);
     out.extend_from_slice(text.strip_suffix(".0").unwrap_or(text).as_bytes());
+}
+
+/// Appends an integer.
+#[inline]
+pub(crate) fn write_integer(value: u64, out: &mut Vec<u8>) {
+    out.extend_from_slice(itoa::Buffer::new().format(value).as_bytes());
 }
 
 /// The same for flags and messages, in Rust's notation.

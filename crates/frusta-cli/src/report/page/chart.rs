@@ -9,9 +9,9 @@
 //! ```
 
 use super::axes::{Decades, label};
-use super::marks::{colour, mark};
+use super::drawing::{Anchor, Drawing};
+use super::marks::colour;
 use super::panel::{FAST, KEY, LEAST_SHARE};
-use super::svg::{Anchor, Svg};
 use super::totals::Total;
 use super::words::{figure, percent};
 use frusta_lab::{Survey, SurveyAlgorithm, SurveyTier, geometric_mean};
@@ -90,25 +90,25 @@ pub(super) fn chart(survey: &Survey) -> String {
     if points.is_empty() {
         return String::new();
     }
-    let mut svg = Svg::new(SIZE, "Error against run time over all families");
+    let mut drawing = Drawing::new(SIZE, "Error against run time over all families");
     let axes = Axes::new(&points, reference);
-    rails(&axes, &mut svg);
-    times(&axes, &mut svg);
-    names(&mut svg);
+    rails(&axes, &mut drawing);
+    times(&axes, &mut drawing);
+    names(&mut drawing);
     points
         .iter()
-        .for_each(|point| marks(&axes, point, &mut svg));
-    legend(&mut svg);
-    svg.finish()
+        .for_each(|point| marks(&axes, point, &mut drawing));
+    legend(&mut drawing);
+    drawing.finish()
 }
 
 /// Frames and horizontal lines.
-fn rails(axes: &Axes, svg: &mut Svg) {
-    svg.rect("rail", [LEFT, WRONG[0]], [RIGHT, WRONG[1]]);
-    svg.rect("frame", [LEFT, ERRORS[0]], [RIGHT, ERRORS[1]]);
+fn rails(axes: &Axes, drawing: &mut Drawing) {
+    drawing.rect("rail", [LEFT, WRONG[0]], [RIGHT, WRONG[1]]);
+    drawing.rect("frame", [LEFT, ERRORS[0]], [RIGHT, ERRORS[1]]);
     let mut tick = |y: f64, text: &str| {
-        svg.line("grid", [LEFT, y], [RIGHT, y]);
-        svg.text("", [LEFT - 8.0, y + 4.0], 13, Anchor::End, text);
+        drawing.line("grid", [LEFT, y], [RIGHT, y]);
+        drawing.text("", [LEFT - 8.0, y + 4.0], 13, Anchor::End, text);
     };
     for share in [1.0, 1e-1, 1e-2, 1e-3, 1e-4, 1e-5] {
         tick(axes.share.place(share), &percent(share));
@@ -117,50 +117,50 @@ fn rails(axes: &Axes, svg: &mut Svg) {
         tick(axes.error.place(error), &label(error));
     }
     let bound = axes.error.place(FAST);
-    svg.line("bound", [LEFT, bound], [RIGHT, bound]);
+    drawing.line("bound", [LEFT, bound], [RIGHT, bound]);
     let place = [RIGHT - 5.0, bound - 5.0];
-    svg.text("soft", place, 12, Anchor::End, "exact, fast promises 8");
+    drawing.text("soft", place, 12, Anchor::End, "exact, fast promises 8");
 }
 
 /// Vertical lines; nanoseconds below, multiples of the reference above.
-fn times(axes: &Axes, svg: &mut Svg) {
+fn times(axes: &Axes, drawing: &mut Drawing) {
     let is_inside = |x: f64| x > LEFT + 1.0 && x < RIGHT - 1.0;
     let steps = [1.0, 2.0, 5.0];
     let decades = (-1..7).map(|e| 10_f64.powi(e));
     for time in decades.flat_map(|d| steps.map(|s| s * d)) {
         let x = axes.time.place(time);
         if is_inside(x) {
-            svg.line("grid", [x, WRONG[0]], [x, ERRORS[1]]);
+            drawing.line("grid", [x, WRONG[0]], [x, ERRORS[1]]);
             let place = [x, ERRORS[1] + 18.0];
-            svg.text("", place, 13, Anchor::Middle, &label(time));
+            drawing.text("", place, 13, Anchor::Middle, &label(time));
         }
         let x = axes.time.place(time * 0.1 * axes.reference);
         if is_inside(x) {
-            svg.line("frame", [x, WRONG[0] - 5.0], [x, WRONG[0]]);
+            drawing.line("frame", [x, WRONG[0] - 5.0], [x, WRONG[0]]);
             let place = [x, WRONG[0] - 9.0];
-            svg.text("soft", place, 12, Anchor::Middle, &label(time * 0.1));
+            drawing.text("soft", place, 12, Anchor::Middle, &label(time * 0.1));
         }
     }
     let one = axes.time.place(axes.reference);
-    svg.line("bound", [one, WRONG[0]], [one, ERRORS[1]]);
+    drawing.line("bound", [one, WRONG[0]], [one, ERRORS[1]]);
 }
 
 /// What the axes are.
-fn names(svg: &mut Svg) {
+fn names(drawing: &mut Drawing) {
     let middle = 0.5 * (LEFT + RIGHT);
     let below = "run time, nanoseconds a segment (logarithmic; slower to the right)";
-    svg.text("", [middle, ERRORS[1] + 42.0], 14, Anchor::Middle, below);
+    drawing.text("", [middle, ERRORS[1] + 42.0], 14, Anchor::Middle, below);
     let above = "run time as a multiple of textbook Liang-Barsky's in plain f64";
-    svg.text("soft", [middle, WRONG[0] - 30.0], 13, Anchor::Middle, above);
+    drawing.text("soft", [middle, WRONG[0] - 30.0], 13, Anchor::Middle, above);
     let up = |[top, bottom]: [f64; 2]| [24.0, 0.5 * (top + bottom)];
-    svg.upwards("", up(WRONG), 14, "wrong answers");
-    svg.upwards("", up(ERRORS), 14, "largest error of the others, u·scale");
+    drawing.upwards("", up(WRONG), 14, "wrong answers");
+    drawing.upwards("", up(ERRORS), 14, "largest error of the others, u·scale");
     let note = "geometric means over the families; dashed upwards: textbook Liang-Barsky";
-    svg.text("soft", [middle, ERRORS[1] + 62.0], 12, Anchor::Middle, note);
+    drawing.text("soft", [middle, ERRORS[1] + 62.0], 12, Anchor::Middle, note);
 }
 
 /// One mark for the errors of the right answers, one for the wrong ones.
-fn marks(axes: &Axes, point: &Point, svg: &mut Svg) {
+fn marks(axes: &Axes, point: &Point, drawing: &mut Drawing) {
     let Point {
         algorithm, tier, ..
     } = *point;
@@ -176,31 +176,33 @@ fn marks(axes: &Axes, point: &Point, svg: &mut Svg) {
     let (x, y) = (axes.time.place(point.nanoseconds), axes.error.place(error));
     if share > 0.0 {
         let up = axes.share.place(share);
-        svg.line(&format!("tie {}", colour(tier)), [x, up], [x, y]);
-        svg.raw(&mark(algorithm, tier, [x, up], RADIUS, &title));
+        drawing.line(&format!("tie {}", colour(tier)), [x, up], [x, y]);
+        drawing.mark((algorithm, tier), [x, up], RADIUS, &title);
     }
-    svg.raw(&mark(algorithm, tier, [x, y], RADIUS, &title));
+    drawing.mark((algorithm, tier), [x, y], RADIUS, &title);
 }
 
-fn legend(svg: &mut Svg) {
+fn legend(drawing: &mut Drawing) {
     let mut y = WRONG[0] + 6.0;
-    let heading = |svg: &mut Svg, y: &mut f64, text: &str| {
-        svg.text("bold", [LEGEND, *y], 14, Anchor::Start, text);
+    let heading = |drawing: &mut Drawing, y: &mut f64, text: &str| {
+        drawing.text("bold", [LEGEND, *y], 14, Anchor::Start, text);
         *y += 24.0;
     };
-    let entry = |svg: &mut Svg, y: &mut f64, class: &str, algorithm, tier, text: &str| {
-        let shape = mark(algorithm, tier, [LEGEND + 8.0, *y - 4.0], RADIUS, "");
-        svg.raw(&format!("<g class=\"{class}\">{shape}</g>"));
-        svg.text("", [LEGEND + 24.0, *y], 13, Anchor::Start, text);
+    let entry = |drawing: &mut Drawing, y: &mut f64, class: &str, algorithm, tier, text: &str| {
+        let place = [LEGEND + 8.0, *y - 4.0];
+        drawing.group(class, |drawing| {
+            drawing.mark((algorithm, tier), place, RADIUS, "")
+        });
+        drawing.text("", [LEGEND + 24.0, *y], 13, Anchor::Start, text);
         *y += 22.0;
     };
-    heading(svg, &mut y, "Colour: arithmetic");
+    heading(drawing, &mut y, "Colour: arithmetic");
     for (tier, name) in KEY {
-        entry(svg, &mut y, "", SurveyAlgorithm::Vw, tier, name);
+        entry(drawing, &mut y, "", SurveyAlgorithm::Vw, tier, name);
     }
     let hollow = SurveyTier::ExactFastF32;
     entry(
-        svg,
+        drawing,
         &mut y,
         "",
         SurveyAlgorithm::Vw,
@@ -208,16 +210,23 @@ fn legend(svg: &mut Svg) {
         "hollow: in f32, else f64",
     );
     y += 14.0;
-    heading(svg, &mut y, "Shape: algorithm");
+    heading(drawing, &mut y, "Shape: algorithm");
     for algorithm in SurveyAlgorithm::ALL {
         let name = match algorithm {
             SurveyAlgorithm::Vw => "V/W, projection reduction",
             other => other.name(),
         };
-        entry(svg, &mut y, "any", algorithm, SurveyTier::PlainF64, name);
+        entry(
+            drawing,
+            &mut y,
+            "any",
+            algorithm,
+            SurveyTier::PlainF64,
+            name,
+        );
     }
     y += 14.0;
-    heading(svg, &mut y, "Better: lower, farther left");
+    heading(drawing, &mut y, "Better: lower, farther left");
     for line in [
         "A clipper with wrong answers has",
         "two marks, tied by a thin line:",
@@ -225,7 +234,7 @@ fn legend(svg: &mut Svg) {
         "the errors of its right answers.",
         "Point at a mark for its numbers.",
     ] {
-        svg.text("soft", [LEGEND, y - 4.0], 12, Anchor::Start, line);
+        drawing.text("soft", [LEGEND, y - 4.0], 12, Anchor::Start, line);
         y += 17.0;
     }
 }

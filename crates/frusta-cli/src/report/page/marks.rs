@@ -13,40 +13,8 @@ pub(super) fn colour(tier: SurveyTier) -> &'static str {
     }
 }
 
-/// A mark at a position, with a text that is shown when it is pointed at.
-pub(super) fn mark(
-    algorithm: SurveyAlgorithm,
-    tier: SurveyTier,
-    [x, y]: [f64; 2],
-    radius: f64,
-    title: &str,
-) -> String {
-    let fill = if tier.is_single() { "h" } else { "m" };
-    let class = format!("{} {fill}", colour(tier));
-    let title = if title.is_empty() {
-        String::new()
-    } else {
-        format!("<title>{title}</title>")
-    };
-    if algorithm == SurveyAlgorithm::Vw {
-        let r = radius;
-        return format!(
-            "<circle class=\"{class}\" cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"{r:.1}\">{title}</circle>\n"
-        );
-    }
-    let path: String = shape(algorithm)
-        .iter()
-        .enumerate()
-        .map(|(i, [dx, dy])| {
-            let step = if i == 0 { 'M' } else { 'L' };
-            format!("{step}{:.1} {:.1}", x + dx * radius, y + dy * radius)
-        })
-        .collect();
-    format!("<path class=\"{class}\" d=\"{path}Z\">{title}</path>\n")
-}
-
-/// The outlines other than the circle, with about its area.
-fn shape(algorithm: SurveyAlgorithm) -> &'static [[f64; 2]] {
+/// The outlines, of about the area of a circle; that of V/W, which is one, is empty.
+pub(super) fn shape(algorithm: SurveyAlgorithm) -> &'static [[f64; 2]] {
     match algorithm {
         SurveyAlgorithm::Vw => &[],
         SurveyAlgorithm::LiangBarskyTuned => {

@@ -3,7 +3,7 @@
 //! ```text
 //! text      the page from top to bottom        style     the style sheet, the script
 //! chart     error against run time, the first  overview  thumbnails of all panels
-//! panel     a family's panel                   svg       the elements of all three
+//! panel     a family's panel                   drawing   the elements of all three
 //! axes      logarithmic axes                   marks     shapes and colours
 //! words     numbers as text                    totals    sums over families
 //! tables    most tables                        worst     the cases that are drawn
@@ -13,13 +13,13 @@
 
 mod axes;
 mod chart;
+mod drawing;
 mod everyday;
 mod marks;
 mod overview;
 mod panel;
 mod peers;
 mod style;
-mod svg;
 mod tables;
 mod text;
 mod totals;

@@ -1,9 +1,8 @@
 //! All families at a glance: thumbnails of the panels, on axes that all of them share.
 
 use super::axes::Decades;
-use super::marks::mark;
+use super::drawing::{Anchor, Drawing};
 use super::panel::{FAST, LEAST_SHARE, by_family, wrong_share};
-use super::svg::{Anchor, Svg};
 use super::words::figure;
 use frusta_lab::SurveyRow;
 
@@ -60,17 +59,17 @@ impl Thumbnail {
     }
 
     /// A family's rows.
-    fn draw(&self, rows: &[&SurveyRow], svg: &mut Svg) {
+    fn draw(&self, rows: &[&SurveyRow], drawing: &mut Drawing) {
         let [width, height] = SIZE;
         let name = rows.first().map_or("", |row| row.family.name());
-        svg.rect("rail", [0.0, 24.0], [width, 50.0]);
-        svg.rect("rail", [0.0, 132.0], [width, 144.0]);
-        svg.rect("frame", [0.0, 24.0], [width, height - 6.0]);
-        svg.text("", [2.0, 16.0], 13, Anchor::Start, name);
+        drawing.rect("rail", [0.0, 24.0], [width, 50.0]);
+        drawing.rect("rail", [0.0, 132.0], [width, 144.0]);
+        drawing.rect("frame", [0.0, 24.0], [width, height - 6.0]);
+        drawing.text("", [2.0, 16.0], 13, Anchor::Start, name);
         let one = self.time.place(1.0);
-        svg.line("grid", [one, 24.0], [one, 144.0]);
+        drawing.line("grid", [one, 24.0], [one, 144.0]);
         let bound = self.error.place(FAST);
-        svg.line("bound", [0.0, bound], [width, bound]);
+        drawing.line("bound", [0.0, bound], [width, bound]);
         let mut order: Vec<&&SurveyRow> = rows.iter().collect();
         order.sort_by_key(|row| row.tier.is_exact());
         for row in order {
@@ -78,7 +77,7 @@ impl Thumbnail {
             let (share, error) = (wrong_share(row), row.error_u_scale.max);
             if share > 0.0 {
                 let place = [x, self.share.place(share)];
-                svg.raw(&mark(row.algorithm, row.tier, place, 2.2, ""));
+                drawing.mark((row.algorithm, row.tier), place, 2.2, "");
             }
             if share < 1.0 {
                 let y = if error > 0.0 {
@@ -86,7 +85,7 @@ impl Thumbnail {
                 } else {
                     138.0
                 };
-                svg.raw(&mark(row.algorithm, row.tier, [x, y], 2.2, ""));
+                drawing.mark((row.algorithm, row.tier), [x, y], 2.2, "");
             }
         }
     }
@@ -101,16 +100,12 @@ pub(super) fn overview(rows: &[SurveyRow]) -> String {
         COLUMNS.min(families.len().max(1)) as f64 * step[0] + 6.0,
         families.len().div_ceil(COLUMNS) as f64 * step[1] + 6.0,
     ];
-    let mut svg = Svg::new(size, "All families, each a link to its panel");
+    let mut drawing = Drawing::new(size, "All families, each a link to its panel");
     for (i, rows) in families.iter().enumerate() {
         let x = 10.0 + (i % COLUMNS) as f64 * step[0];
         let y = 6.0 + (i / COLUMNS) as f64 * step[1];
         let name = rows.first().map_or("", |row| row.family.name());
-        svg.raw(&format!(
-            "<a href=\"#{name}\"><g transform=\"translate({x} {y})\">"
-        ));
-        thumbnail.draw(rows, &mut svg);
-        svg.raw("</g></a>\n");
+        drawing.link(name, [x, y], |drawing| thumbnail.draw(rows, drawing));
     }
-    svg.finish()
+    drawing.finish()
 }

@@ -10,9 +10,8 @@
 //! by a thin line.
 
 use super::axes::{Decades, label};
-use super::marks::mark;
+use super::drawing::{Anchor, Drawing};
 use super::style;
-use super::svg::{Anchor, Svg};
 use super::words::{figure, percent, times};
 use frusta_lab::{SurveyAlgorithm, SurveyRow, SurveyTier};
 
@@ -64,20 +63,19 @@ impl Axes {
 
 /// The panel as it stands in the page.
 pub(super) fn panel(rows: &[&SurveyRow]) -> String {
-    let mut svg = Svg::new(SIZE, name(rows));
-    body(rows, &mut svg);
-    svg.finish()
+    let mut drawing = Drawing::new(SIZE, name(rows));
+    body(rows, &mut drawing);
+    drawing.finish()
 }
 
 /// The panel as a file.
 pub(super) fn file(rows: &[&SurveyRow]) -> String {
-    let mut svg = Svg::new([SIZE[0], SIZE[1] + KEY_HEIGHT], name(rows));
+    let mut drawing = Drawing::new([SIZE[0], SIZE[1] + KEY_HEIGHT], name(rows));
     let (colours, panels) = (style::COLOURS, style::PANELS);
-    svg.raw(&format!("<style>{colours}{panels}</style>\n"));
-    svg.raw("<rect width=\"100%\" height=\"100%\" style=\"fill:var(--paper)\"/>\n");
-    body(rows, &mut svg);
-    key(&mut svg);
-    svg.finish() + "\n"
+    drawing.style(&format!("{colours}{panels}"));
+    body(rows, &mut drawing);
+    key(&mut drawing);
+    drawing.finish()
 }
 
 fn name(rows: &[&SurveyRow]) -> &'static str {
@@ -85,14 +83,15 @@ fn name(rows: &[&SurveyRow]) -> &'static str {
 }
 
 /// The meaning of the marks, below a panel that is a file of its own.
-fn key(svg: &mut Svg) {
+fn key(drawing: &mut Drawing) {
     let mut entry = |x: f64, row: f64, algorithm, tier, name: &str| {
         let y = SIZE[1] + 8.0 + 20.0 * row;
-        let mark = mark(algorithm, tier, [x, y], 5.0, "");
         // A shape stands for an algorithm in every colour, so it has none here.
         let class = if row < 2.0 { "any" } else { "" };
-        svg.raw(&format!("<g class=\"{class}\">{mark}</g>\n"));
-        svg.text("", [x + 10.0, y + 4.0], 12, Anchor::Start, name);
+        drawing.group(class, |drawing| {
+            drawing.mark((algorithm, tier), [x, y], 5.0, "")
+        });
+        drawing.text("", [x + 10.0, y + 4.0], 12, Anchor::Start, name);
     };
     for (i, algorithm) in SurveyAlgorithm::ALL.into_iter().enumerate() {
         let (x, row) = (24.0 + 200.0 * (i % 3) as f64, (i / 3) as f64);
@@ -105,30 +104,30 @@ fn key(svg: &mut Svg) {
     }
 }
 
-fn body(rows: &[&SurveyRow], svg: &mut Svg) {
+fn body(rows: &[&SurveyRow], drawing: &mut Drawing) {
     let axes = Axes::new(rows);
     let cases = rows.first().map_or(0, |row| row.cases);
-    svg.text("bold", [16.0, 27.0], 19, Anchor::Start, name(rows));
+    drawing.text("bold", [16.0, 27.0], 19, Anchor::Start, name(rows));
     let place = [SIZE[0] - RIGHT, 27.0];
-    svg.text("soft", place, 13, Anchor::End, &format!("{cases} cases"));
-    scales(&axes, svg);
+    drawing.text("soft", place, 13, Anchor::End, &format!("{cases} cases"));
+    scales(&axes, drawing);
     // Exact answers last, on top of the others.
     let mut order: Vec<&&SurveyRow> = rows.iter().collect();
     order.sort_by_key(|row| row.tier.is_exact());
     for row in order {
-        marks(&axes, row, svg);
+        marks(&axes, row, drawing);
     }
 }
 
 /// Frames, grids and labels.
-fn scales(axes: &Axes, svg: &mut Svg) {
+fn scales(axes: &Axes, drawing: &mut Drawing) {
     let (left, right) = (LEFT, SIZE[0] - RIGHT);
     for [top, bottom] in [WRONG, ZERO] {
-        svg.rect("rail", [left, top], [right, bottom]);
+        drawing.rect("rail", [left, top], [right, bottom]);
     }
     let mut tick = |y: f64, text: &str| {
-        svg.line("grid", [left, y], [right, y]);
-        svg.text("", [left - 8.0, y + 4.0], 12, Anchor::End, text);
+        drawing.line("grid", [left, y], [right, y]);
+        drawing.text("", [left - 8.0, y + 4.0], 12, Anchor::End, text);
     };
     for share in [1.0, 1e-2, 1e-4] {
         tick(axes.share.place(share), &percent(share));
@@ -144,32 +143,32 @@ fn scales(axes: &Axes, svg: &mut Svg) {
         if x <= left + 1.0 || x >= right - 1.0 {
             continue;
         }
-        svg.line("grid", [x, WRONG[0]], [x, ZERO[1]]);
-        svg.text("", [x, ZERO[1] + 17.0], 12, Anchor::Middle, &label(ratio));
+        drawing.line("grid", [x, WRONG[0]], [x, ZERO[1]]);
+        drawing.text("", [x, ZERO[1] + 17.0], 12, Anchor::Middle, &label(ratio));
     }
     let bound = axes.error.place(FAST);
-    svg.line("bound", [left, bound], [right, bound]);
+    drawing.line("bound", [left, bound], [right, bound]);
     let place = [right - 4.0, bound - 4.0];
-    svg.text("soft", place, 11, Anchor::End, "exact-fast promises 8");
-    names(svg);
+    drawing.text("soft", place, 11, Anchor::End, "exact-fast promises 8");
+    names(drawing);
 }
 
 /// The names of the axes.
-fn names(svg: &mut Svg) {
+fn names(drawing: &mut Drawing) {
     let (left, right) = (LEFT, SIZE[0] - RIGHT);
     for ([top, bottom], name) in [(WRONG, "wrong class"), (ERRORS, "largest error, u·scale")] {
-        svg.upwards("soft", [18.0, 0.5 * (top + bottom)], 12, name);
+        drawing.upwards("soft", [18.0, 0.5 * (top + bottom)], 12, name);
     }
     let place = [0.5 * (left + right), SIZE[1] - 12.0];
     let name =
         "run time, as a multiple of textbook Liang-Barsky's in plain f64 (slower to the right)";
-    svg.text("soft", place, 12, Anchor::Middle, name);
+    drawing.text("soft", place, 12, Anchor::Middle, name);
     let place = [right - 4.0, 0.5 * (ZERO[0] + ZERO[1]) + 4.0];
-    svg.text("soft", place, 11, Anchor::End, "exact");
+    drawing.text("soft", place, 11, Anchor::End, "exact");
 }
 
 /// A row's one or two marks.
-fn marks(axes: &Axes, row: &SurveyRow, svg: &mut Svg) {
+fn marks(axes: &Axes, row: &SurveyRow, drawing: &mut Drawing) {
     let x = axes.time.place(row.time_ratio.median);
     let share = wrong_share(row);
     let error = row.error_u_scale.max;
@@ -195,12 +194,12 @@ fn marks(axes: &Axes, row: &SurveyRow, svg: &mut Svg) {
     if share > 0.0 {
         let up = axes.share.place(share);
         let colour = super::marks::colour(row.tier);
-        svg.line(&format!("tie {colour}"), [x, up], [x, y]);
-        svg.raw(&mark(row.algorithm, row.tier, [x, up], 5.0, &title));
+        drawing.line(&format!("tie {colour}"), [x, up], [x, y]);
+        drawing.mark((row.algorithm, row.tier), [x, up], 5.0, &title);
     }
     // Without a right answer there is no error to show.
     if share < 1.0 {
-        svg.raw(&mark(row.algorithm, row.tier, [x, y], 5.0, &title));
+        drawing.mark((row.algorithm, row.tier), [x, y], 5.0, &title);
     }
 }
 

@@ -1,6 +1,7 @@
 //! The page from top to bottom: the question, the first chart, the answer, and everything else.
 
-use super::marks::{colour, mark};
+use super::drawing::Drawing;
+use super::marks::colour;
 use super::overview::{self, overview};
 use super::panel::{KEY, by_family, panel};
 use super::words::count;
@@ -122,10 +123,9 @@ fn contents() -> Markup {
 /// The key and the axes.
 fn how_to_read() -> Markup {
     let icon = |algorithm, tier| {
-        let shape = mark(algorithm, tier, [9.0, 9.0], 5.5, "");
-        html! {
-            svg.panel viewBox="0 0 18 18" aria-hidden="true" { (PreEscaped(shape)) }
-        }
+        let mut drawing = Drawing::icon(18);
+        drawing.mark((algorithm, tier), [9.0, 9.0], 5.5, "");
+        PreEscaped(drawing.finish())
     };
     html! {
         h2 #read { "How to read a panel" }
