@@ -111,6 +111,14 @@
 //! [`Culler::classify_exact`] the exact class. A coordinate that is not finite is an error, never a
 //! panic. [`guarantees`] explains each, and how it is known to hold.
 
+#![cfg_attr(
+    not(simd),
+    allow(
+        dead_code,
+        unused_imports,
+        reason = "what only code for vector registers needs"
+    )
+)]
 #![cfg_attr(docsrs, feature(doc_cfg))]
 
 pub mod clip;

@@ -43,7 +43,7 @@ use super::whole::{inside, outside};
 use super::{SegmentClipper, exact, many};
 use crate::frustum::{Face, FaceSet, Frustum, Layout, PlainFrustum};
 use crate::math::{NonFinite, NonFiniteAt, Real, Segment};
-use fearless_simd::Level;
+use crate::simd::Level;
 
 /// Clips by projection on two planes ("V/W").
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

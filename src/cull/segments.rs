@@ -7,7 +7,7 @@ use crate::clip::many::intervals::{self, SegmentIntervals, Segments};
 use crate::clip::many::intervals::{Out, Uncertain};
 use crate::cull::Culler;
 use crate::math::{NonFiniteAt, Real};
-use fearless_simd::Level;
+use crate::simd::Level;
 
 impl Culler {
     /// Finds the class of each of many segments, and the parameters between which it is in

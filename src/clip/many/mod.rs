@@ -29,6 +29,8 @@
 //! vector width is chosen once for a slice, at run time. The only fused operation is the rest of a
 //! product, which is exact either way.
 //!
+//! Without code for vector registers (see `build.rs`) segments are clipped one by one.
+//!
 //! Closures that use registers are marked `#[inline(always)]`, or avoided: others are compiled
 //! without the vector width's instructions.
 //!
@@ -37,20 +39,31 @@
 //! instead of branches: as the selection vectors of vectorised databases (Boncz,
 //! Zukowski, Nes, "MonetDB/X100", 2005).
 
+#[cfg(simd)]
 mod certified;
 pub(crate) mod intervals;
+#[cfg(simd)]
+mod kernels;
+#[cfg(simd)]
 mod lanes;
+#[cfg(simd)]
 mod lattice;
+#[cfg(not(simd))]
+mod one;
+#[cfg(simd)]
 mod plain;
+#[cfg(simd)]
 mod points;
+#[cfg(simd)]
 mod queue;
 
 use super::result::{Accuracy, SegmentClip, StageCounts};
-use crate::frustum::{Form, Frustum, General, PlainFrustum, Symmetric};
+use crate::frustum::{Frustum, PlainFrustum};
 use crate::math::{NonFinite, NonFiniteAt, PerReal, Real, Segment};
-use crate::simd::at_width;
-use fearless_simd::{Level, Simd};
-use queue::{BLOCK, Queues};
+use crate::simd::Level;
+use kernels::{BLOCK, Queues};
+#[cfg(not(simd))]
+use one as kernels;
 
 /// Segments of a block, and the places of their clips: as many, all outside.
 struct Block<'a, T> {
@@ -125,45 +138,17 @@ impl PerReal for Both {
 
     fn single(&self) -> &Kernels<f32> {
         &Kernels {
-            exact: exact_f32,
-            plain: plain_f32,
+            exact: kernels::exact_f32,
+            plain: kernels::plain_f32,
         }
     }
 
     fn double(&self) -> &Kernels<f64> {
         &Kernels {
-            exact: exact_f64,
-            plain: plain_f64,
+            exact: kernels::exact_f64,
+            plain: kernels::plain_f64,
         }
     }
-}
-
-macro_rules! kernels {
-    ($($t:ident $exact:ident $plain:ident $registers:ident;)*) => {$(
-        fn $exact(
-            level: Level,
-            block: Block<'_, $t>,
-            accuracy: Accuracy,
-            queues: &mut Queues,
-            counts: &mut StageCounts,
-        ) -> Result<(), NonFiniteAt> {
-            at_width!(level, simd => exact_block(simd, block, accuracy, queues, counts))
-        }
-
-        fn $plain(
-            level: Level,
-            block: Block<'_, $t>,
-            frustum: &PlainFrustum<$t>,
-            queues: &mut Queues,
-        ) -> Result<(), NonFiniteAt> {
-            at_width!(level, simd => plain::$registers(simd, block, frustum, queues))
-        }
-    )*};
-}
-
-kernels! {
-    f32 exact_f32 plain_f32 clip_f32;
-    f64 exact_f64 plain_f64 clip_f64;
 }
 
 fn in_blocks<T: Real>(
@@ -189,28 +174,6 @@ fn in_blocks<T: Real>(
         }
     }
     Ok(())
-}
-
-#[inline(always)]
-fn exact_block<S: Simd, T: Real>(
-    simd: S,
-    block: Block<'_, T>,
-    accuracy: Accuracy,
-    queues: &mut Queues,
-    counts: &mut StageCounts,
-) -> Result<(), NonFiniteAt> {
-    let mut run = certified::Run {
-        quad: lanes::Quad(simd),
-        block,
-        accuracy,
-        queues,
-        counts,
-    };
-    match run.block.frustum.filter().form {
-        Form::Symmetric => run.clip::<Symmetric<true>>(),
-        Form::General | Form::Orthographic => run.clip::<General<true>>(),
-        Form::InfiniteSymmetric | Form::Infinite => run.clip::<General<false>>(),
-    }
 }
 
 #[cfg(test)]

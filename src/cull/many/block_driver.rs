@@ -11,9 +11,10 @@ use super::output::Sink;
 use crate::cull::{Containment, Culler, Volume, VolumeCounts, VolumeErrorAt};
 use crate::frustum::eval::planes::FacePlanes;
 use crate::math::Real;
-use crate::simd::at_width;
+use crate::simd::Level;
+#[cfg(simd)]
 use fearless_simd::prelude::*;
-use fearless_simd::{Level, f32x8, f64x4};
+use std::ops::Range;
 
 /// Volumes whose bits make a machine word.
 pub(super) const WORD: usize = u64::BITS as usize;
@@ -30,6 +31,7 @@ pub(super) type Eight<T, const K: usize> = [[T; 8]; K];
 pub(super) type Block<T, const K: usize> = [Eight<T, K>; BLOCK / 8];
 
 /// Component k of a group of N volumes.
+#[cfg(simd)]
 #[inline(always)]
 pub(super) fn load<S, V, T, const N: usize, const K: usize>(
     simd: S,
@@ -80,80 +82,124 @@ pub(super) trait Volumes<T: Real, const K: usize> {
     fn block(&self, start: usize) -> Option<(&Block<T, K>, T)>;
 
     /// The components as arrays, if they are stored so.
+    #[cfg(simd)]
     fn arrays(&self) -> Option<[&[T]; K]>;
 
     /// The components of one volume.
     fn components(&self, index: usize) -> [T; K];
 
-    /// Classifies a block, a register at a time; without INSIDE only *outside* is decided. The
-    /// largest magnitude is given if all volumes are known to be valid.
-    fn classify_block<S, V, const N: usize, const INSIDE: bool>(
-        simd: S,
+    /// Classifies a block at a vector width. The largest magnitude is given if all volumes are
+    /// known to be valid; without `inside` only *outside* is decided.
+    #[cfg(simd)]
+    fn classify_block(
+        level: Level,
         planes: &FacePlanes<T>,
         block: &Block<T, K>,
         largest: Option<T>,
-    ) -> BlockAnswers
-    where
-        S: Simd,
-        V: SimdFloat<S, Element = T, Array = [T; N]>;
+        inside: bool,
+    ) -> BlockAnswers;
+
+    /// The same for one volume: 1 or 0 for certainly outside, certainly inside, class certain.
+    /// The largest magnitude is that of a block.
+    #[cfg(not(simd))]
+    fn classify_one(
+        planes: &FacePlanes<T>,
+        volume: &[T; K],
+        largest: Option<T>,
+        inside: bool,
+    ) -> [u64; 3];
 }
 
-/// Classifies all volumes, block by block.
-pub struct BlockDriver<'a, T, V> {
+/// A kernel, compiled for each scalar type once, here, and not in every crate that asks.
+#[cfg(simd)]
+pub(super) type Kernel<T, const K: usize> =
+    fn(Level, &FacePlanes<T>, &Block<T, K>, Option<T>, bool) -> BlockAnswers;
+
+/// What classifies volumes, block by block.
+pub(super) struct BlockDriver<'a, T, V> {
     pub(super) culler: &'a Culler,
     pub(super) planes: &'a FacePlanes<T>,
     pub(super) volumes: &'a V,
-    pub(super) counts: &'a mut VolumeCounts,
+    pub(super) level: Level,
 }
 
 impl<T: Real, Vols> BlockDriver<'_, T, Vols> {
-    /// On an error the sink has the answers before it.
-    #[inline(always)]
-    pub(super) fn run<S, V, const N: usize, const K: usize, Out: Sink>(
-        &mut self,
-        simd: S,
-        out: &mut Out,
+    /// Classifies a range of the volumes, which starts at a multiple of a block. On an error the
+    /// sink has the answers before it.
+    pub(super) fn run<const K: usize>(
+        &self,
+        range: Range<usize>,
+        out: &mut dyn Sink,
+        counts: &mut VolumeCounts,
     ) -> Result<(), VolumeErrorAt>
     where
-        S: Simd,
-        V: SimdFloat<S, Element = T, Array = [T; N]>,
         Vols: Volumes<T, K>,
     {
+        let inside = out.needs_inside();
         let mut gathered = [[[T::ZERO; 8]; K]; BLOCK / 8];
-        for start in (0..self.volumes.len()).step_by(BLOCK) {
-            let count = BLOCK.min(self.volumes.len() - start);
-            let (block, largest) = match self.volumes.block(start) {
-                Some((block, largest)) => (block, Some(largest)),
-                None => {
-                    self.gather(start, count, &mut gathered);
-                    (&gathered, None)
-                }
-            };
-            let answers = match Out::INSIDE {
-                true => Vols::classify_block::<S, V, N, true>(simd, self.planes, block, largest),
-                false => Vols::classify_block::<S, V, N, false>(simd, self.planes, block, largest),
-            };
-            for (k, mut bits) in answers.into_iter().enumerate() {
-                let Some(count) = count.checked_sub(k * WORD).filter(|&count| count > 0) else {
-                    break;
-                };
-                let count = count.min(WORD);
-                let present = u64::MAX >> (WORD - count);
+        for start in range.clone().step_by(BLOCK) {
+            let count = BLOCK.min(range.end - start);
+            let mut answers = self.classify(start, count, inside, &mut gathered);
+            for (k, bits) in answers.iter_mut().enumerate() {
+                let count = count.saturating_sub(k * WORD).min(WORD);
+                let present = u64::MAX.checked_shr((WORD - count) as u32).unwrap_or(0);
                 bits.undecided &= present;
                 if bits.undecided != 0 {
-                    self.decide(start + k * WORD, &mut bits)?;
+                    self.decide(start + k * WORD, bits, counts)?;
                 }
                 bits.outside &= present;
                 bits.inside &= present;
-                out.take(count, bits);
             }
+            out.take(count, &answers);
         }
         out.finish();
         Ok(())
     }
 
+    #[cfg(simd)]
+    fn classify<const K: usize>(
+        &self,
+        start: usize,
+        count: usize,
+        inside: bool,
+        gathered: &mut Block<T, K>,
+    ) -> BlockAnswers
+    where
+        Vols: Volumes<T, K>,
+    {
+        let (block, largest) = match self.volumes.block(start) {
+            Some((block, largest)) => (block, Some(largest)),
+            None => {
+                self.gather(start, count, gathered);
+                (&*gathered, None)
+            }
+        };
+        Vols::classify_block(self.level, self.planes, block, largest, inside)
+    }
+
+    #[cfg(not(simd))]
+    fn classify<const K: usize>(
+        &self,
+        start: usize,
+        count: usize,
+        inside: bool,
+        _: &mut Block<T, K>,
+    ) -> BlockAnswers
+    where
+        Vols: Volumes<T, K>,
+    {
+        let mut answers = [BlockBits::default(); BLOCK / WORD];
+        let largest = self.volumes.block(start).map(|(_, largest)| largest);
+        for i in 0..count {
+            let volume = self.volumes.components(start + i);
+            let masks = Vols::classify_one(self.planes, &volume, largest, inside);
+            answers[i / WORD].set::<1>(i % WORD, masks);
+        }
+        answers
+    }
+
     /// Copies a block's components; beyond the last volume that one is repeated.
-    #[inline(always)]
+    #[cfg(simd)]
     fn gather<const K: usize>(&self, start: usize, count: usize, to: &mut Block<T, K>)
     where
         Vols: Volumes<T, K>,
@@ -181,9 +227,10 @@ impl<T: Real, Vols> BlockDriver<'_, T, Vols> {
     /// Classifies undecided volumes one by one.
     #[inline(never)]
     fn decide<const K: usize>(
-        &mut self,
+        &self,
         start: usize,
         bits: &mut BlockBits,
+        counts: &mut VolumeCounts,
     ) -> Result<(), VolumeErrorAt>
     where
         Vols: Volumes<T, K>,
@@ -191,14 +238,14 @@ impl<T: Real, Vols> BlockDriver<'_, T, Vols> {
         while bits.undecided != 0 {
             let bit = bits.undecided & bits.undecided.wrapping_neg();
             bits.undecided ^= bit;
-            self.counts.undecided += 1;
+            counts.undecided += 1;
             let index = start + bit.trailing_zeros() as usize;
             let Some(volume) = self.volumes.volume(index) else {
                 continue;
             };
             let class = self
                 .culler
-                .classify_counted(volume, self.counts)
+                .classify_counted(volume, counts)
                 .map_err(|error| VolumeErrorAt { index, error })?;
             bits.outside |= if class == Containment::Outside {
                 bit
@@ -212,7 +259,7 @@ impl<T: Real, Vols> BlockDriver<'_, T, Vols> {
 }
 
 /// The block from `start` on of each array, if all of them reach so far.
-#[inline(always)]
+#[cfg(simd)]
 fn blocks<T, const K: usize>(arrays: [&[T]; K], start: usize) -> Option<[&[T; BLOCK]; K]> {
     let mut blocks = [arrays.first()?.get(start..)?.first_chunk()?; K];
     for (block, array) in blocks.iter_mut().zip(arrays) {
@@ -220,37 +267,3 @@ fn blocks<T, const K: usize>(arrays: [&[T]; K], start: usize) -> Option<[&[T; BL
     }
     Some(blocks)
 }
-
-/// Classifies all volumes at the machine's vector width.
-macro_rules! run {
-    ($name:ident, $t:ident, $lanes:ident, $n:literal) => {
-        pub(super) fn $name<const K: usize, Vols: Volumes<$t, K>, Out: Sink>(
-            level: Level,
-            mut driver: BlockDriver<'_, $t, Vols>,
-            out: &mut Out,
-        ) -> Result<(), VolumeErrorAt> {
-            at_width!(level, simd => {
-                run_at::<_, $t, $lanes<_>, $n, K, Vols, Out>(simd, &mut driver, out)
-            })
-        }
-    };
-}
-
-#[inline(always)]
-fn run_at<S, T, V, const N: usize, const K: usize, Vols, Out>(
-    simd: S,
-    driver: &mut BlockDriver<'_, T, Vols>,
-    out: &mut Out,
-) -> Result<(), VolumeErrorAt>
-where
-    S: Simd,
-    T: Real,
-    V: SimdFloat<S, Element = T, Array = [T; N]>,
-    Vols: Volumes<T, K>,
-    Out: Sink,
-{
-    driver.run::<S, V, N, K, Out>(simd, out)
-}
-
-run!(run_f32, f32, f32x8, 8);
-run!(run_f64, f64, f64x4, 4);

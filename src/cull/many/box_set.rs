@@ -182,16 +182,4 @@ impl<'a, T: Real> Stored<'a, T> {
         let k = start / BLOCK;
         Some((self.blocks.get(k)?, *self.largest.get(k)?))
     }
-
-    /// A range of the boxes, from the beginning of a block on.
-    #[cfg(feature = "parallel")]
-    pub(super) fn part(&self, range: std::ops::Range<usize>) -> Self {
-        debug_assert!(range.start.is_multiple_of(BLOCK));
-        let first = range.start / BLOCK;
-        Self {
-            len: range.len(),
-            blocks: &self.blocks[first..],
-            largest: &self.largest[first..],
-        }
-    }
 }

@@ -1,6 +1,6 @@
 //! A query's answers as bits.
 
-use super::block_driver::{BlockBits, WORD};
+use super::block_driver::{BlockAnswers, WORD};
 use super::output::Sink;
 use crate::cull::Containment;
 
@@ -121,18 +121,19 @@ pub(super) struct MaskBits<'a> {
 }
 
 impl Sink for MaskBits<'_> {
-    const INSIDE: bool = true;
+    fn needs_inside(&self) -> bool {
+        true
+    }
 
-    super::output::run_relative!();
-
-    #[inline(always)]
-    fn take(&mut self, _count: usize, bits: BlockBits) {
-        for (words, bits) in [
-            (&mut self.outside, bits.outside),
-            (&mut self.inside, bits.inside),
-        ] {
-            if let Some(first) = words.split_off_first_mut() {
-                *first = bits;
+    fn take(&mut self, count: usize, answers: &BlockAnswers) {
+        for bits in &answers[..count.div_ceil(WORD)] {
+            for (words, bits) in [
+                (&mut self.outside, bits.outside),
+                (&mut self.inside, bits.inside),
+            ] {
+                if let Some(first) = words.split_off_first_mut() {
+                    *first = bits;
+                }
             }
         }
     }

@@ -7,21 +7,27 @@
 //!
 //! ```text
 //! query         Culler::over and its options
-//! source        where volumes come from: arrays, slices, sets; the kernel for each scalar type
+//! source        where volumes come from: arrays, slices, sets
 //! output        where answers go: masks, classes, indices
 //! masks         a bit for each volume
 //! block_driver  256 volumes at a time; undecided ones one by one
-//! boxes         the kernel for axis-aligned boxes
+//! kernels       a block of boxes or spheres, by vector registers
+//! one           the same without vector registers
+//! boxes         axis-aligned boxes in arrays and slices
 //! box_set       boxes that are kept: validated and laid out once, fastest to query
 //! relative      boxes in f64, read in f32 relative to an anchor near them
-//! spheres       the kernel for spheres
+//! spheres       spheres in arrays and slices
 //! parallel      (feature) pieces on rayon's threads
 //! ```
 
 mod block_driver;
 mod box_set;
 mod boxes;
+#[cfg(simd)]
+mod kernels;
 mod masks;
+#[cfg(not(simd))]
+mod one;
 mod output;
 #[cfg(feature = "parallel")]
 pub(super) mod parallel;

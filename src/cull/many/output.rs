@@ -1,49 +1,27 @@
 //! Where a query's answers go: the three buffers of a caller, and the sinks that fill them.
 
 use super::ContainmentMasks;
-use super::block_driver::{BLOCK, BlockBits, BlockDriver, WORD};
+use super::block_driver::{BLOCK, BlockAnswers, WORD};
 use super::masks::visible;
-use super::relative::RelativeQuery;
 use super::source::Query;
 use crate::cull::{Containment, Culler, VolumeCounts, VolumeErrorAt};
 use crate::simd::compaction::PLACES;
+use crate::simd::{Level, at_width};
+#[cfg(simd)]
+use fearless_simd::Simd;
 
 /// Takes the bits of a query's volumes, in order.
 pub trait Sink {
     /// Whether the sink needs to know which volumes are inside.
-    const INSIDE: bool;
+    fn needs_inside(&self) -> bool;
 
-    /// Takes the bits of the next `count` volumes, all decided; no other bits are set.
-    fn take(&mut self, count: usize, bits: BlockBits);
+    /// Takes the bits of the next `count` volumes, a block's or fewer, all decided; no other bits
+    /// are set.
+    fn take(&mut self, count: usize, answers: &BlockAnswers);
 
     /// Writes what is still held back after the last volume.
-    #[inline(always)]
     fn finish(&mut self) {}
-
-    /// Runs a query over relative boxes. A sink is no generic type, so that this is compiled in
-    /// the library and not in every crate that asks.
-    fn run_relative(
-        &mut self,
-        driver: BlockDriver<'_, f32, RelativeQuery<'_>>,
-    ) -> Result<(), VolumeErrorAt>;
 }
-
-/// The body of [`Sink::run_relative`], which each sink has for itself.
-macro_rules! run_relative {
-    () => {
-        fn run_relative(
-            &mut self,
-            driver: crate::cull::many::block_driver::BlockDriver<
-                '_,
-                f32,
-                crate::cull::many::relative::RelativeQuery<'_>,
-            >,
-        ) -> Result<(), crate::cull::VolumeErrorAt> {
-            crate::cull::many::block_driver::run_f32(fearless_simd::Level::new(), driver, self)
-        }
-    };
-}
-pub(super) use run_relative;
 
 /// A caller's buffer.
 pub(super) trait Output {
@@ -54,7 +32,7 @@ pub(super) trait Output {
     fn write(
         &mut self,
         culler: &Culler,
-        query: &impl Query,
+        query: &dyn Query,
         counts: &mut VolumeCounts,
     ) -> Result<(), VolumeErrorAt>;
 
@@ -63,7 +41,7 @@ pub(super) trait Output {
     fn write_parallel(
         &mut self,
         culler: &Culler,
-        query: &impl Query,
+        query: &dyn Query,
     ) -> Result<VolumeCounts, VolumeErrorAt>;
 }
 
@@ -75,17 +53,18 @@ impl Output for ContainmentMasks {
     fn write(
         &mut self,
         culler: &Culler,
-        query: &impl Query,
+        query: &dyn Query,
         counts: &mut VolumeCounts,
     ) -> Result<(), VolumeErrorAt> {
-        query.run(culler, &mut self.prepare(query.count()), counts)
+        let mut bits = self.prepare(query.count());
+        query.run(0..query.count(), culler, &mut bits, counts)
     }
 
     #[cfg(feature = "parallel")]
     fn write_parallel(
         &mut self,
         culler: &Culler,
-        query: &impl Query,
+        query: &dyn Query,
     ) -> Result<VolumeCounts, VolumeErrorAt> {
         super::parallel::masks(culler, query, self)
     }
@@ -99,18 +78,18 @@ impl Output for Vec<Containment> {
     fn write(
         &mut self,
         culler: &Culler,
-        query: &impl Query,
+        query: &dyn Query,
         counts: &mut VolumeCounts,
     ) -> Result<(), VolumeErrorAt> {
         self.resize(query.count(), Containment::Outside);
-        query.run(culler, &mut Classes(self), counts)
+        query.run(0..query.count(), culler, &mut Classes(self), counts)
     }
 
     #[cfg(feature = "parallel")]
     fn write_parallel(
         &mut self,
         culler: &Culler,
-        query: &impl Query,
+        query: &dyn Query,
     ) -> Result<VolumeCounts, VolumeErrorAt> {
         super::parallel::classes(culler, query, self)
     }
@@ -124,18 +103,18 @@ impl Output for Vec<u32> {
     fn write(
         &mut self,
         culler: &Culler,
-        query: &impl Query,
+        query: &dyn Query,
         counts: &mut VolumeCounts,
     ) -> Result<(), VolumeErrorAt> {
         self.clear();
-        query.run(culler, &mut Indices::new(self, 0), counts)
+        query.run(0..query.count(), culler, &mut Indices::new(self, 0), counts)
     }
 
     #[cfg(feature = "parallel")]
     fn write_parallel(
         &mut self,
         culler: &Culler,
-        query: &impl Query,
+        query: &dyn Query,
     ) -> Result<VolumeCounts, VolumeErrorAt> {
         super::parallel::indices(culler, query, self)
     }
@@ -161,19 +140,19 @@ const CLASSES: [[Containment; 4]; 256] = {
 pub(super) struct Classes<'a>(pub(super) &'a mut [Containment]);
 
 impl Sink for Classes<'_> {
-    const INSIDE: bool = true;
+    fn needs_inside(&self) -> bool {
+        true
+    }
 
-    run_relative!();
-
-    #[inline(always)]
-    fn take(&mut self, count: usize, bits: BlockBits) {
-        let mut classes = [[Containment::Crossing; 4]; WORD / 4];
-        for (i, four) in classes.iter_mut().enumerate() {
-            let nibble = |bits: u64| (bits >> (4 * i) & 15) as usize;
-            *four = CLASSES[nibble(bits.outside) | nibble(bits.inside) << 4];
-        }
-        if let Some(slots) = self.0.split_off_mut(..count) {
-            slots.copy_from_slice(&classes.as_flattened()[..count]);
+    fn take(&mut self, count: usize, answers: &BlockAnswers) {
+        let slots = self.0.split_off_mut(..count).unwrap_or_default();
+        for (slots, bits) in slots.chunks_mut(WORD).zip(answers) {
+            let mut classes = [[Containment::Crossing; 4]; WORD / 4];
+            for (i, four) in classes.iter_mut().enumerate() {
+                let nibble = |bits: u64| (bits >> (4 * i) & 15) as usize;
+                *four = CLASSES[nibble(bits.outside) | nibble(bits.inside) << 4];
+            }
+            slots.copy_from_slice(&classes.as_flattened()[..slots.len()]);
         }
     }
 }
@@ -184,8 +163,9 @@ pub(super) struct Indices<'a> {
     /// The index of the next volume.
     next: u32,
     /// Indices on their way to the list.
-    waiting: [u32; BLOCK + 8],
+    waiting: [u32; 2 * BLOCK + 8],
     len: usize,
+    level: Level,
 }
 
 impl<'a> Indices<'a> {
@@ -194,28 +174,28 @@ impl<'a> Indices<'a> {
         Self {
             list,
             next: first,
-            waiting: [0; BLOCK + 8],
+            waiting: [0; 2 * BLOCK + 8],
             len: 0,
+            level: Level::new(),
         }
     }
-}
-
-impl Sink for Indices<'_> {
-    const INSIDE: bool = false;
-
-    run_relative!();
 
     /// A byte of bits at a time, without branches: which volumes are visible cannot be
     /// predicted.
     #[inline(always)]
-    fn take(&mut self, count: usize, bits: BlockBits) {
-        let visible = visible(count, bits.outside);
-        if visible != 0 {
-            if self.len > BLOCK - WORD {
-                self.finish();
+    fn append(&mut self, count: usize, answers: &BlockAnswers) {
+        for (k, bits) in answers.iter().enumerate() {
+            let count = count.saturating_sub(k * WORD).min(WORD);
+            if count == 0 {
+                break;
             }
+            let visible = visible(count, bits.outside);
+            if visible == 0 {
+                continue;
+            }
+            let first = self.next.wrapping_add((k * WORD) as u32);
             for (k, byte) in visible.to_le_bytes().into_iter().enumerate() {
-                let next = self.next.wrapping_add(8 * k as u32);
+                let next = first.wrapping_add(8 * k as u32);
                 let places = &PLACES[usize::from(byte)];
                 let rest = self.waiting.get_mut(self.len..);
                 if let Some(slots) = rest.and_then(|rest| rest.first_chunk_mut::<8>()) {
@@ -228,11 +208,23 @@ impl Sink for Indices<'_> {
         }
         self.next = self.next.wrapping_add(count as u32);
     }
+}
 
-    #[inline(always)]
+impl Sink for Indices<'_> {
+    fn needs_inside(&self) -> bool {
+        false
+    }
+
+    fn take(&mut self, count: usize, answers: &BlockAnswers) {
+        if self.len > BLOCK {
+            self.finish();
+        }
+        at_width!(self.level, _simd => self.append(count, answers));
+    }
+
     fn finish(&mut self) {
-        self.list
-            .extend_from_slice(&self.waiting[..self.len.min(BLOCK)]);
+        let waiting = &self.waiting[..self.len.min(2 * BLOCK)];
+        self.list.extend_from_slice(waiting);
         self.len = 0;
     }
 }

@@ -29,7 +29,7 @@ pub(in crate::cull) fn piece_range(piece: usize, len: usize) -> Range<usize> {
 
 pub(super) fn masks(
     culler: &Culler,
-    query: &impl Query,
+    query: &dyn Query,
     masks: &mut ContainmentMasks,
 ) -> Result<VolumeCounts, VolumeErrorAt> {
     let bits = masks.prepare(query.count());
@@ -43,7 +43,7 @@ pub(super) fn masks(
 
 pub(super) fn classes(
     culler: &Culler,
-    query: &impl Query,
+    query: &dyn Query,
     classes: &mut Vec<Containment>,
 ) -> Result<VolumeCounts, VolumeErrorAt> {
     classes.resize(query.count(), Containment::Outside);
@@ -55,7 +55,7 @@ pub(super) fn classes(
 
 pub(super) fn indices(
     culler: &Culler,
-    query: &impl Query,
+    query: &dyn Query,
     indices: &mut Vec<u32>,
 ) -> Result<VolumeCounts, VolumeErrorAt> {
     indices.clear();
@@ -76,18 +76,12 @@ pub(super) fn indices(
 
 fn run_piece(
     culler: &Culler,
-    query: &impl Query,
+    query: &dyn Query,
     piece: usize,
-    out: &mut impl Sink,
+    out: &mut dyn Sink,
 ) -> Result<VolumeCounts, VolumeErrorAt> {
-    let range = piece_range(piece, query.count());
-    let start = range.start;
     let mut counts = VolumeCounts::default();
-    let done = query.part(range).run(culler, out, &mut counts);
-    done.map_err(|e| VolumeErrorAt {
-        index: start + e.index,
-        ..e
-    })?;
+    query.run(piece_range(piece, query.count()), culler, out, &mut counts)?;
     Ok(counts)
 }
 

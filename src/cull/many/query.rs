@@ -132,28 +132,38 @@ impl<'q, S: VolumeSource> VolumeQuery<'q, S> {
         self.write_to(masks)
     }
 
-    fn write_to(self, output: &mut impl Output) -> Result<(), VolumeErrorAt> {
+    fn write_to(self, output: &mut dyn Output) -> Result<(), VolumeErrorAt> {
         let query = self.source.query(self.culler);
-        let mut counts = VolumeCounts::default();
-        let done = if self.is_parallel {
-            write_parallel(self.culler, &query, output, &mut counts)
-        } else {
-            output.write(self.culler, &query, &mut counts)
-        };
-        match (&done, self.counts) {
-            (Ok(()), Some(total)) => *total += counts,
-            (Ok(()), None) => {}
-            (Err(_), _) => output.clear(),
-        }
-        done
+        write(self.culler, &query, self.is_parallel, output, self.counts)
     }
+}
+
+fn write(
+    culler: &Culler,
+    query: &dyn Query,
+    is_parallel: bool,
+    output: &mut dyn Output,
+    total: Option<&mut VolumeCounts>,
+) -> Result<(), VolumeErrorAt> {
+    let mut counts = VolumeCounts::default();
+    let done = if is_parallel {
+        write_parallel(culler, query, output, &mut counts)
+    } else {
+        output.write(culler, query, &mut counts)
+    };
+    match (&done, total) {
+        (Ok(()), Some(total)) => *total += counts,
+        (Ok(()), None) => {}
+        (Err(_), _) => output.clear(),
+    }
+    done
 }
 
 #[cfg(feature = "parallel")]
 fn write_parallel(
     culler: &Culler,
-    query: &impl Query,
-    output: &mut impl Output,
+    query: &dyn Query,
+    output: &mut dyn Output,
     counts: &mut VolumeCounts,
 ) -> Result<(), VolumeErrorAt> {
     *counts = output.write_parallel(culler, query)?;
@@ -164,8 +174,8 @@ fn write_parallel(
 #[cfg(not(feature = "parallel"))]
 fn write_parallel(
     culler: &Culler,
-    query: &impl Query,
-    output: &mut impl Output,
+    query: &dyn Query,
+    output: &mut dyn Output,
     counts: &mut VolumeCounts,
 ) -> Result<(), VolumeErrorAt> {
     output.write(culler, query, counts)

@@ -11,20 +11,22 @@
 //! With u = 2^-24, a converted coordinate is off by `1.01 u |p - anchor|`: the difference has a
 //! relative error of 2^-53, the conversion of u. A half space's offset at the anchor,
 //! `n . anchor + d`, is formed exactly and rounded once. So a value is off by 1.01 u S more than
-//! in [`super::boxes`]: 6.02 S + 4.01 |d|, still below the threshold of 8 S + 8 |d|. Below the
+//! in `kernels/boxes.rs`: 6.02 S + 4.01 |d|, still below the threshold of 8 S + 8 |d|. Below the
 //! normal range of `f32` a conversion is off by 2^-150, far below what the threshold adds for
 //! underflow. Coordinates beyond the range of `f32` become infinite, and the kernel decides
 //! nothing about them.
 
-use super::block_driver::{self, Block, BlockAnswers};
+#[cfg(simd)]
+use super::block_driver::BlockAnswers;
+use super::block_driver::{Block, Volumes};
 use super::box_set::{BoxSet, Stored};
-use super::boxes::Boxes;
+#[cfg(simd)]
+use super::kernels;
 use crate::cull::{Aabb, Culler, Volume, VolumeErrorAt};
 use crate::frustum::eval::planes::FacePlanes;
 use crate::math::{NonFinite, Vec3};
-use fearless_simd::prelude::*;
-#[cfg(feature = "parallel")]
-use std::ops::Range;
+#[cfg(simd)]
+use crate::simd::Level;
 
 /// Boxes in `f64` that queries read in `f32`, relative to an anchor: the answers of `f64` in the
 /// time of `f32`.
@@ -150,26 +152,14 @@ impl RelativeBoxes {
     }
 }
 
-/// Relative boxes, or a range of them, and half spaces relative to their anchor.
+/// Relative boxes, and half spaces relative to their anchor.
 pub struct RelativeQuery<'a> {
     pub(super) planes: FacePlanes<f32>,
     near: Stored<'a, f32>,
     exact: &'a [Aabb<f64>],
 }
 
-#[cfg(feature = "parallel")]
-impl RelativeQuery<'_> {
-    /// A range of the boxes.
-    pub(super) fn part(&self, range: Range<usize>) -> Self {
-        Self {
-            planes: self.planes.clone(),
-            near: self.near.part(range.clone()),
-            exact: &self.exact[range],
-        }
-    }
-}
-
-impl block_driver::Volumes<f32, 6> for RelativeQuery<'_> {
+impl Volumes<f32, 6> for RelativeQuery<'_> {
     fn len(&self) -> usize {
         self.exact.len()
     }
@@ -178,32 +168,38 @@ impl block_driver::Volumes<f32, 6> for RelativeQuery<'_> {
         self.exact.get(index).copied().map(Volume::from)
     }
 
-    #[inline(always)]
     fn block(&self, start: usize) -> Option<(&Block<f32, 6>, f32)> {
         self.near.block(start)
     }
 
+    #[cfg(simd)]
     fn arrays(&self) -> Option<[&[f32]; 6]> {
         None
     }
 
-    /// Unused: all boxes are stored in blocks.
-    #[inline(always)]
-    fn components(&self, _: usize) -> [f32; 6] {
-        [f32::NAN; 6]
+    fn components(&self, index: usize) -> [f32; 6] {
+        let Aabb { min, max } = self.near.get(index).unwrap_or_default();
+        [min.x, min.y, min.z, max.x, max.y, max.z]
     }
 
-    #[inline(always)]
-    fn classify_block<S, V, const N: usize, const INSIDE: bool>(
-        simd: S,
+    #[cfg(simd)]
+    fn classify_block(
+        level: Level,
         planes: &FacePlanes<f32>,
         block: &Block<f32, 6>,
         largest: Option<f32>,
-    ) -> BlockAnswers
-    where
-        S: Simd,
-        V: SimdFloat<S, Element = f32, Array = [f32; N]>,
-    {
-        Boxes::<f32>::classify_block::<S, V, N, INSIDE>(simd, planes, block, largest)
+        inside: bool,
+    ) -> BlockAnswers {
+        kernels::boxes::classify_f32(level, planes, block, largest, inside)
+    }
+
+    #[cfg(not(simd))]
+    fn classify_one(
+        planes: &FacePlanes<f32>,
+        volume: &[f32; 6],
+        largest: Option<f32>,
+        inside: bool,
+    ) -> [u64; 3] {
+        super::one::classify_box(planes, volume, largest, inside)
     }
 }

@@ -1,15 +1,13 @@
-//! Where a query's volumes come from, and the kernel for each scalar type.
+//! Where a query's volumes come from.
 
-use super::block_driver::{self, BlockDriver};
+use super::block_driver::{BlockDriver, Volumes};
 use super::boxes::{BoxArrays, Boxes};
-use super::relative::{self, RelativeBoxes};
+use super::relative::{RelativeBoxes, RelativeQuery};
 use super::spheres::{SphereArrays, Spheres};
 use super::{BoxSet, output::Sink};
 use crate::cull::{Aabb, Culler, Sphere, VolumeCounts, VolumeErrorAt};
 use crate::math::{PerReal, Real};
-use fearless_simd::Level;
-use std::marker::PhantomData;
-#[cfg(feature = "parallel")]
+use crate::simd::Level;
 use std::ops::Range;
 
 pub(super) use sealed::{Query, Source};
@@ -42,15 +40,13 @@ mod sealed {
         /// Number of volumes.
         fn count(&self) -> usize;
 
-        /// A range of the volumes, which starts at a multiple of a block.
-        #[cfg(feature = "parallel")]
-        fn part(&self, range: Range<usize>) -> Self;
-
-        /// Classifies all volumes, in order. On an error `out` has what came before.
-        fn run<Out: Sink>(
+        /// Classifies a range of the volumes, in order; the range starts at a multiple of a
+        /// block. On an error `out` has what came before.
+        fn run(
             &self,
+            range: Range<usize>,
             culler: &Culler,
-            out: &mut Out,
+            out: &mut dyn Sink,
             counts: &mut VolumeCounts,
         ) -> Result<(), VolumeErrorAt>;
     }
@@ -82,7 +78,7 @@ source!(&'a [Sphere<T>; N] => Spheres, N);
 source!(&'a Vec<Sphere<T>> => Spheres);
 
 impl<'a> Source for &'a RelativeBoxes {
-    type Query = relative::RelativeQuery<'a>;
+    type Query = RelativeQuery<'a>;
 
     fn query(self, culler: &Culler) -> Self::Query {
         self.seen_by(culler)
@@ -91,104 +87,91 @@ impl<'a> Source for &'a RelativeBoxes {
 
 impl VolumeSource for &RelativeBoxes {}
 
-/// A query over one kind of volume: a function for each scalar type, picked at run time, so that
-/// code that is generic over the type names no vector type.
+/// The body of [`Query::run`] for volumes of a scalar type.
+macro_rules! run {
+    ($volumes:ty, $planes:ident) => {{
+        fn run(
+            volumes: &$volumes,
+            range: Range<usize>,
+            culler: &Culler,
+            out: &mut dyn Sink,
+            counts: &mut VolumeCounts,
+        ) -> Result<(), VolumeErrorAt> {
+            let driver = BlockDriver {
+                culler,
+                planes: culler.face_planes().$planes(),
+                volumes,
+                level: Level::new(),
+            };
+            driver.run(range, out, counts)
+        }
+        &(run as _)
+    }};
+}
+
+/// A query over one kind of volume: a function that is not generic for each scalar type, compiled
+/// once, here, and not in every crate that asks.
 macro_rules! query {
-    ($volumes:ident, $kernel:ident, $kernels:ident, $run_f32:ident, $run_f64:ident) => {
+    ($volumes:ident, $runs:ident) => {
         impl<T: Real> Query for $volumes<'_, T> {
             fn count(&self) -> usize {
                 self.len()
             }
 
-            #[cfg(feature = "parallel")]
-            fn part(&self, range: Range<usize>) -> Self {
-                self.part(range)
-            }
-
-            fn run<Out: Sink>(
+            fn run(
                 &self,
+                range: Range<usize>,
                 culler: &Culler,
-                out: &mut Out,
+                out: &mut dyn Sink,
                 counts: &mut VolumeCounts,
             ) -> Result<(), VolumeErrorAt> {
-                let kernels = $kernels(PhantomData::<Out>);
-                let (kernel, planes) = (T::pick(&kernels), T::pick(culler.face_planes()));
-                let driver = BlockDriver {
-                    culler,
-                    planes,
-                    volumes: self,
-                    counts,
-                };
-                kernel(Level::new(), driver, out)
+                T::pick(&$runs)(self, range, culler, out, counts)
             }
         }
 
-        type $kernel<T, Out> =
-            fn(Level, BlockDriver<'_, T, $volumes<'_, T>>, &mut Out) -> Result<(), VolumeErrorAt>;
+        struct $runs;
 
-        struct $kernels<Out>(PhantomData<Out>);
+        impl PerReal for $runs {
+            type Of<T: Real> = fn(
+                &$volumes<'_, T>,
+                Range<usize>,
+                &Culler,
+                &mut dyn Sink,
+                &mut VolumeCounts,
+            ) -> Result<(), VolumeErrorAt>;
 
-        impl<Out: Sink> PerReal for $kernels<Out> {
-            type Of<T: Real> = $kernel<T, Out>;
-
-            fn single(&self) -> &$kernel<f32, Out> {
-                &($run_f32 as _)
+            fn single(&self) -> &Self::Of<f32> {
+                run!($volumes<'_, f32>, single)
             }
 
-            fn double(&self) -> &$kernel<f64, Out> {
-                &($run_f64 as _)
+            fn double(&self) -> &Self::Of<f64> {
+                run!($volumes<'_, f64>, double)
             }
-        }
-
-        fn $run_f32<Out: Sink>(
-            level: Level,
-            driver: BlockDriver<'_, f32, $volumes<'_, f32>>,
-            out: &mut Out,
-        ) -> Result<(), VolumeErrorAt> {
-            block_driver::run_f32(level, driver, out)
-        }
-
-        fn $run_f64<Out: Sink>(
-            level: Level,
-            driver: BlockDriver<'_, f64, $volumes<'_, f64>>,
-            out: &mut Out,
-        ) -> Result<(), VolumeErrorAt> {
-            block_driver::run_f64(level, driver, out)
         }
     };
 }
 
-query!(Boxes, BoxKernel, BoxKernels, boxes_f32, boxes_f64);
-query!(
-    Spheres,
-    SphereKernel,
-    SphereKernels,
-    spheres_f32,
-    spheres_f64
-);
+query!(Boxes, RunBoxes);
+query!(Spheres, RunSpheres);
 
-impl Query for relative::RelativeQuery<'_> {
+impl Query for RelativeQuery<'_> {
     fn count(&self) -> usize {
-        block_driver::Volumes::len(self)
+        self.len()
     }
 
-    #[cfg(feature = "parallel")]
-    fn part(&self, range: Range<usize>) -> Self {
-        self.part(range)
-    }
-
-    fn run<Out: Sink>(
+    fn run(
         &self,
+        range: Range<usize>,
         culler: &Culler,
-        out: &mut Out,
+        out: &mut dyn Sink,
         counts: &mut VolumeCounts,
     ) -> Result<(), VolumeErrorAt> {
         let driver = BlockDriver {
             culler,
             planes: &self.planes,
             volumes: self,
-            counts,
+            level: Level::new(),
         };
-        out.run_relative(driver)
+        driver.run(range, out, counts)
     }
 }

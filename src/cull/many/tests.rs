@@ -1,17 +1,18 @@
 //! Kernels compared with one volume at a time, at every vector width.
 
-use super::block_driver::{self, BlockDriver};
+use super::block_driver::{BlockDriver, Volumes};
 use super::boxes::Boxes;
-use super::output::{Classes, Indices};
+use super::output::{Classes, Indices, Sink};
 use super::spheres::Spheres;
 use super::*;
 use crate::clip::Class;
 use crate::clip::many::intervals::SegmentIntervals;
 use crate::cull::{Aabb, Containment, Culler, Sphere, Volume, VolumeCounts, VolumeError};
 use crate::frustum::{Direction, EndRect, Frustum, Shape};
-use crate::math::{PerReal, Pose, Real, Rect, Segment, Vec3};
+use crate::math::{Pose, Real, Rect, Segment, Vec3};
 use crate::samples::{BLOCK, Family};
 use crate::simd::levels;
+use std::fmt::Debug;
 
 /// The class of each volume by [`Culler::classify`].
 pub(in crate::cull) fn one_by_one<V: Copy + Into<Volume>>(
@@ -80,50 +81,38 @@ fn segments<T: Real>(family: Family, block: u64) -> (Frustum, Vec<Segment<T>>) {
 }
 
 /// Every output of some volumes is that of single answers, at every vector width.
-macro_rules! comparison {
-    ($name:ident, $t:ident, $volumes:ident, $run:ident, $item:ident, $planes:ident) => {
-        fn $name(culler: &Culler, volumes: $volumes<'_, $t>, all: &[$item<$t>]) {
-            let expected = one_by_one(culler, all);
-            let visible = visible(&expected);
-            for level in levels() {
-                let mut counts = VolumeCounts::default();
-                let (mut masks, mut classes, mut list) =
-                    (ContainmentMasks::default(), Vec::new(), Vec::new());
-                fn driver<'a>(
-                    culler: &'a Culler,
-                    volumes: &'a $volumes<'a, $t>,
-                    counts: &'a mut VolumeCounts,
-                ) -> BlockDriver<'a, $t, $volumes<'a, $t>> {
-                    BlockDriver {
-                        culler,
-                        planes: culler.face_planes().$planes(),
-                        volumes,
-                        counts,
-                    }
-                }
-                let to_masks = driver(culler, &volumes, &mut counts);
-                block_driver::$run(level, to_masks, &mut masks.prepare(all.len())).unwrap();
-                let to_classes = driver(culler, &volumes, &mut counts);
-                classes.resize(all.len(), Containment::Crossing);
-                block_driver::$run(level, to_classes, &mut Classes(&mut classes)).unwrap();
-                let indices = &mut Indices::new(&mut list, 0);
-                block_driver::$run(level, driver(culler, &volumes, &mut counts), indices).unwrap();
-                for (i, (class, expected)) in classes.iter().zip(&expected).enumerate() {
-                    assert_eq!(class, expected, "{:?} {:?}", culler.frustum(), all[i]);
-                    assert_eq!(masks.get(i), Some(*expected));
-                }
-                assert_eq!(masks.get(expected.len()), None);
-                assert!(masks.visible().eq(visible.iter().map(|&i| i as usize)));
-                assert_eq!(list, visible);
-            }
+fn compare<T: Real, const K: usize>(
+    culler: &Culler,
+    volumes: impl Volumes<T, K>,
+    all: &[impl Copy + Debug + Into<Volume>],
+) {
+    let expected = one_by_one(culler, all);
+    let visible = visible(&expected);
+    for level in levels() {
+        let driver = BlockDriver {
+            culler,
+            planes: T::pick(culler.face_planes()),
+            volumes: &volumes,
+            level,
+        };
+        let run = |out: &mut dyn Sink| {
+            let done = driver.run(0..all.len(), out, &mut VolumeCounts::default());
+            done.unwrap();
+        };
+        let (mut masks, mut list) = (ContainmentMasks::default(), Vec::new());
+        let mut classes = vec![Containment::Crossing; all.len()];
+        run(&mut masks.prepare(all.len()));
+        run(&mut Classes(&mut classes));
+        run(&mut Indices::new(&mut list, 0));
+        for (i, (class, expected)) in classes.iter().zip(&expected).enumerate() {
+            assert_eq!(class, expected, "{:?} {:?}", culler.frustum(), all[i]);
+            assert_eq!(masks.get(i), Some(*expected));
         }
-    };
+        assert_eq!(masks.get(expected.len()), None);
+        assert!(masks.visible().eq(visible.iter().map(|&i| i as usize)));
+        assert_eq!(list, visible);
+    }
 }
-
-comparison!(compare_boxes_f32, f32, Boxes, run_f32, Aabb, single);
-comparison!(compare_boxes_f64, f64, Boxes, run_f64, Aabb, double);
-comparison!(compare_spheres_f32, f32, Spheres, run_f32, Sphere, single);
-comparison!(compare_spheres_f64, f64, Spheres, run_f64, Sphere, double);
 
 fn column<T: Copy, V>(volumes: &[V], component: impl Fn(&V) -> T) -> Vec<T> {
     volumes.iter().map(component).collect()
@@ -150,10 +139,10 @@ fn boxes_are_classified_as_they_are_alone() {
         for block in 0..6 {
             let (frustum, segments) = segments::<f64>(*family, block);
             let (culler, all) = (Culler::new(&frustum), boxes(&segments));
-            with_layouts(&all, |layout| compare_boxes_f64(&culler, layout, &all));
+            with_layouts(&all, |layout| compare(&culler, layout, &all));
             if family.has_f32() {
                 let all = boxes(&self::segments::<f32>(*family, block).1);
-                with_layouts(&all, |layout| compare_boxes_f32(&culler, layout, &all));
+                with_layouts(&all, |layout| compare(&culler, layout, &all));
             }
         }
     }
@@ -165,7 +154,7 @@ fn spheres_are_classified_as_they_are_alone() {
         for block in 0..6 {
             let (frustum, segments) = segments::<f64>(*family, block);
             let (culler, all) = (Culler::new(&frustum), spheres(&segments));
-            compare_spheres_f64(&culler, Spheres::from(&all), &all);
+            compare(&culler, Spheres::from(&all), &all);
             if family.has_f32() {
                 let all = spheres(&self::segments::<f32>(*family, block).1);
                 let center = [0, 1, 2].map(|k| column(&all, |s| s.center[k]));
@@ -173,7 +162,7 @@ fn spheres_are_classified_as_they_are_alone() {
                     center: center.each_ref().map(Vec::as_slice),
                     radius: &column(&all, |s| s.radius),
                 };
-                compare_spheres_f32(&culler, arrays.into(), &all);
+                compare(&culler, Spheres::from(arrays), &all);
             }
         }
     }
@@ -185,7 +174,7 @@ fn any_number_of_boxes() {
     let (culler, all) = (Culler::new(&frustum), boxes(&segments));
     for length in (0..140).chain(500..530).chain([1023, 1024, 1025]) {
         let some = &all[..length.min(all.len())];
-        with_layouts(some, |layout| compare_boxes_f32(&culler, layout, some));
+        with_layouts(some, |layout| compare(&culler, layout, some));
     }
 }
 

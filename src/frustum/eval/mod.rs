@@ -17,6 +17,7 @@ pub(crate) mod exact_vec;
 pub(crate) mod filter;
 pub(crate) mod half_space;
 pub(crate) mod plain;
+#[cfg(simd)]
 pub(crate) mod plane_lanes;
 pub(crate) mod planes;
 pub(crate) mod precise;

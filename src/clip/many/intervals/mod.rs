@@ -23,14 +23,23 @@
 //!
 //! [`Frustum::clip_segment`]: crate::Frustum::clip_segment
 
+#[cfg(simd)]
 mod crossings;
+#[cfg(simd)]
 mod frustum_lanes;
+#[cfg(not(simd))]
+mod one;
 mod output;
+#[cfg(simd)]
 mod parameters;
+#[cfg(simd)]
 mod run;
 mod segments;
+#[cfg(simd)]
 mod triage;
+#[cfg(simd)]
 mod undecided;
+#[cfg(simd)]
 mod widen;
 
 pub(crate) use output::Out;
@@ -42,7 +51,9 @@ pub use segments::{SegmentArrays, Segments};
 use crate::frustum::Frustum;
 use crate::frustum::eval::planes::{FacePlanes, FacePlanesPair};
 use crate::math::{NonFiniteAt, PerReal, Real};
-use fearless_simd::Level;
+use crate::simd::Level;
+#[cfg(not(simd))]
+use one as run;
 
 /// Clips all segments. On an error `intervals` is empty.
 pub(crate) fn clip<T: Real>(

@@ -3,7 +3,7 @@
 use crate::clip::{Accuracy, Class, SegmentClip, StageCounts, many};
 use crate::frustum::Frustum;
 use crate::math::{NonFiniteAt, Real, Segment};
-use fearless_simd::Level;
+use crate::simd::Level;
 
 /// Class and parameters of many segments.
 ///
