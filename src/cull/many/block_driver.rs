@@ -7,6 +7,8 @@
 //! the bits go to a sink: masks, classes or a list of indices
 //! ```
 
+#[cfg(not(simd))]
+use super::one::Classify;
 use super::output::Sink;
 use crate::cull::{Containment, Culler, Volume, VolumeCounts, VolumeErrorAt};
 use crate::frustum::eval::planes::FacePlanes;
@@ -99,15 +101,9 @@ pub(super) trait Volumes<T: Real, const K: usize> {
         inside: bool,
     ) -> BlockAnswers;
 
-    /// The same for one volume: 1 or 0 for certainly outside, certainly inside, class certain.
-    /// The largest magnitude is that of a block.
+    /// The function that classifies one volume.
     #[cfg(not(simd))]
-    fn classify_one(
-        planes: &FacePlanes<T>,
-        volume: &[T; K],
-        largest: Option<T>,
-        inside: bool,
-    ) -> [u64; 3];
+    fn classify_one() -> Classify<T, K>;
 }
 
 /// A kernel, compiled for each scalar type once, here, and not in every crate that asks.
@@ -189,11 +185,19 @@ impl<T: Real, Vols> BlockDriver<'_, T, Vols> {
         Vols: Volumes<T, K>,
     {
         let mut answers = [BlockBits::default(); BLOCK / WORD];
-        let largest = self.volumes.block(start).map(|(_, largest)| largest);
-        for i in 0..count {
+        let stored = self.volumes.block(start);
+        let size = stored.map(|(_, largest)| largest + largest + largest);
+        let threshold = size.map(|size| self.planes.threshold(size, true));
+        let classify = Vols::classify_one();
+        let mut i = 0;
+        while i < count {
             let volume = self.volumes.components(start + i);
-            let masks = Vols::classify_one(self.planes, &volume, largest, inside);
-            answers[i / WORD].set::<1>(i % WORD, masks);
+            let [outside, is_inside, decided] = classify(self.planes, &volume, threshold, inside);
+            let bits = &mut answers[i / WORD];
+            bits.outside |= outside << (i % WORD);
+            bits.inside |= is_inside << (i % WORD);
+            bits.undecided |= (1 - decided) << (i % WORD);
+            i += 1;
         }
         answers
     }

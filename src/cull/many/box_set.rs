@@ -170,10 +170,23 @@ impl<'a, T: Real> Stored<'a, T> {
 
     pub(super) fn get(&self, index: usize) -> Option<Aabb<T>> {
         (index < self.len).then(|| {
-            let block = &self.blocks[index / BLOCK];
-            let at = |k: usize| block[index % BLOCK / 8][k][index % 8];
-            Aabb::new([at(0), at(1), at(2)], [at(3), at(4), at(5)])
+            let [x0, y0, z0, x1, y1, z1] = self.components(index);
+            Aabb::new([x0, y0, z0], [x1, y1, z1])
         })
+    }
+
+    /// The components of a box.
+    pub(super) fn components(&self, index: usize) -> [T; 6] {
+        let eight = &self.blocks[index / BLOCK][index % BLOCK / 8];
+        let i = index % 8;
+        [
+            eight[0][i],
+            eight[1][i],
+            eight[2][i],
+            eight[3][i],
+            eight[4][i],
+            eight[5][i],
+        ]
     }
 
     /// The block whose first box is at `start`, and the largest magnitude in it.

@@ -6,6 +6,8 @@ use super::block_driver::{Block, Volumes};
 use super::box_set::{BoxSet, Stored};
 #[cfg(simd)]
 use super::kernels;
+#[cfg(not(simd))]
+use super::one::Classify;
 use crate::cull::{Aabb, Volume};
 use crate::frustum::eval::planes::FacePlanes;
 use crate::math::{Real, Vec3};
@@ -130,8 +132,21 @@ impl<T: Real> Volumes<T, 6> for Boxes<'_, T> {
     }
 
     fn components(&self, index: usize) -> [T; 6] {
-        let Aabb { min, max } = self.get(index).unwrap_or_default();
-        [min.x, min.y, min.z, max.x, max.y, max.z]
+        match self {
+            Boxes::Arrays(BoxArrays { min, max }) => [
+                min[0][index],
+                min[1][index],
+                min[2][index],
+                max[0][index],
+                max[1][index],
+                max[2][index],
+            ],
+            Boxes::Slice(boxes) => {
+                let Aabb { min, max } = &boxes[index];
+                [min.x, min.y, min.z, max.x, max.y, max.z]
+            }
+            Boxes::Set(set) => set.components(index),
+        }
     }
 
     #[cfg(simd)]
@@ -146,12 +161,7 @@ impl<T: Real> Volumes<T, 6> for Boxes<'_, T> {
     }
 
     #[cfg(not(simd))]
-    fn classify_one(
-        planes: &FacePlanes<T>,
-        volume: &[T; 6],
-        largest: Option<T>,
-        inside: bool,
-    ) -> [u64; 3] {
-        super::one::classify_box(planes, volume, largest, inside)
+    fn classify_one() -> Classify<T, 6> {
+        *T::pick(&super::one::Boxes)
     }
 }

@@ -180,8 +180,6 @@ impl<'a> Indices<'a> {
         }
     }
 
-    /// A byte of bits at a time, without branches: which volumes are visible cannot be
-    /// predicted.
     #[inline(always)]
     fn append(&mut self, count: usize, answers: &BlockAnswers) {
         for (k, bits) in answers.iter().enumerate() {
@@ -193,20 +191,36 @@ impl<'a> Indices<'a> {
             if visible == 0 {
                 continue;
             }
-            let first = self.next.wrapping_add((k * WORD) as u32);
-            for (k, byte) in visible.to_le_bytes().into_iter().enumerate() {
-                let next = first.wrapping_add(8 * k as u32);
-                let places = &PLACES[usize::from(byte)];
-                let rest = self.waiting.get_mut(self.len..);
-                if let Some(slots) = rest.and_then(|rest| rest.first_chunk_mut::<8>()) {
-                    for (slot, place) in slots.iter_mut().zip(places) {
-                        *slot = next.wrapping_add(u32::from(*place));
-                    }
-                }
-                self.len += byte.count_ones() as usize;
-            }
+            self.append_word(self.next.wrapping_add((k * WORD) as u32), visible);
         }
         self.next = self.next.wrapping_add(count as u32);
+    }
+
+    /// A byte of bits at a time, without branches: which volumes are visible cannot be
+    /// predicted.
+    #[cfg(simd)]
+    #[inline(always)]
+    fn append_word(&mut self, first: u32, visible: u64) {
+        for (k, byte) in visible.to_le_bytes().into_iter().enumerate() {
+            let next = first.wrapping_add(8 * k as u32);
+            let places = &PLACES[usize::from(byte)];
+            let rest = self.waiting.get_mut(self.len..);
+            if let Some(slots) = rest.and_then(|rest| rest.first_chunk_mut::<8>()) {
+                for (slot, place) in slots.iter_mut().zip(places) {
+                    *slot = next.wrapping_add(u32::from(*place));
+                }
+            }
+            self.len += byte.count_ones() as usize;
+        }
+    }
+
+    #[cfg(not(simd))]
+    fn append_word(&mut self, first: u32, mut visible: u64) {
+        while visible != 0 {
+            self.waiting[self.len] = first.wrapping_add(visible.trailing_zeros());
+            self.len += 1;
+            visible &= visible - 1;
+        }
     }
 }
 

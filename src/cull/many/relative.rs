@@ -22,8 +22,12 @@ use super::block_driver::{Block, Volumes};
 use super::box_set::{BoxSet, Stored};
 #[cfg(simd)]
 use super::kernels;
+#[cfg(not(simd))]
+use super::one::Classify;
 use crate::cull::{Aabb, Culler, Volume, VolumeErrorAt};
 use crate::frustum::eval::planes::FacePlanes;
+#[cfg(not(simd))]
+use crate::math::PerReal;
 use crate::math::{NonFinite, Vec3};
 #[cfg(simd)]
 use crate::simd::Level;
@@ -178,8 +182,7 @@ impl Volumes<f32, 6> for RelativeQuery<'_> {
     }
 
     fn components(&self, index: usize) -> [f32; 6] {
-        let Aabb { min, max } = self.near.get(index).unwrap_or_default();
-        [min.x, min.y, min.z, max.x, max.y, max.z]
+        self.near.components(index)
     }
 
     #[cfg(simd)]
@@ -194,12 +197,7 @@ impl Volumes<f32, 6> for RelativeQuery<'_> {
     }
 
     #[cfg(not(simd))]
-    fn classify_one(
-        planes: &FacePlanes<f32>,
-        volume: &[f32; 6],
-        largest: Option<f32>,
-        inside: bool,
-    ) -> [u64; 3] {
-        super::one::classify_box(planes, volume, largest, inside)
+    fn classify_one() -> Classify<f32, 6> {
+        *super::one::Boxes.single()
     }
 }

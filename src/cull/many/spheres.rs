@@ -5,6 +5,8 @@ use super::block_driver::BlockAnswers;
 use super::block_driver::{Block, Volumes};
 #[cfg(simd)]
 use super::kernels;
+#[cfg(not(simd))]
+use super::one::Classify;
 use crate::cull::{Sphere, Volume};
 use crate::frustum::eval::planes::FacePlanes;
 use crate::math::{Real, Vec3};
@@ -116,8 +118,18 @@ impl<T: Real> Volumes<T, 4> for Spheres<'_, T> {
     }
 
     fn components(&self, index: usize) -> [T; 4] {
-        let Sphere { center, radius } = self.get(index).unwrap_or_default();
-        [center.x, center.y, center.z, radius]
+        match self {
+            Spheres::Arrays(SphereArrays { center, radius }) => [
+                center[0][index],
+                center[1][index],
+                center[2][index],
+                radius[index],
+            ],
+            Spheres::Slice(spheres) => {
+                let Sphere { center, radius } = &spheres[index];
+                [center.x, center.y, center.z, *radius]
+            }
+        }
     }
 
     #[cfg(simd)]
@@ -132,12 +144,7 @@ impl<T: Real> Volumes<T, 4> for Spheres<'_, T> {
     }
 
     #[cfg(not(simd))]
-    fn classify_one(
-        planes: &FacePlanes<T>,
-        volume: &[T; 4],
-        _: Option<T>,
-        inside: bool,
-    ) -> [u64; 3] {
-        super::one::classify_sphere(planes, volume, inside)
+    fn classify_one() -> Classify<T, 4> {
+        *T::pick(&super::one::Spheres)
     }
 }
