@@ -91,6 +91,21 @@
 //! | `serde`, `approx` | their traits |
 //! | `samples`, `oracle` | the modules above, for tests of clippers and cullers |
 //!
+//! # Targets
+//! Answers are the same to the bit everywhere; speed depends on the vector registers that a target is
+//! sure to have, or that are found at run time.
+//!
+//! | target | slices and queries use |
+//! |---|---|
+//! | x86-64 | AVX2 where it is found at run time, else SSE2; AVX-512 for intervals in `f32` |
+//! | aarch64 | NEON |
+//! | wasm32 with `-C target-feature=+simd128` | simd128; without it one segment or volume at a time |
+//! | others | one segment or volume at a time |
+//! | any, in unoptimised builds (`opt-level = 0`) | one segment or volume at a time |
+//!
+//! In a development build `[profile.dev.package."*"] opt-level = 3` in the program's `Cargo.toml` gives
+//! slices and queries nearly their release speed: their code is compiled here, not in the program.
+//!
 //! # Guarantees
 //! For every finite segment, exact arithmetic (the default) gives:
 //!

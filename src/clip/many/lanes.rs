@@ -4,8 +4,10 @@ use crate::clip::rules::compare::{Compare, MinMax};
 use crate::exact::float::{Lanes, Width, split};
 use crate::frustum::Term;
 use crate::math::{Real, Segment, Vec3};
+#[cfg(any(target_arch = "x86", target_arch = "x86_64", target_arch = "aarch64"))]
+use fearless_simd::Level;
 use fearless_simd::prelude::*;
-use fearless_simd::{Level, f32x8, f32x16, f64x4, mask64x4};
+use fearless_simd::{f32x8, f32x16, f64x4, mask64x4};
 
 /// Makes registers of four `f64`, at a vector width.
 #[derive(Clone, Copy)]

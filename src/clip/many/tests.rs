@@ -2,6 +2,8 @@
 
 use super::*;
 use crate::clip::{SegmentClipper, VwProjection};
+use crate::frustum::{EndRect, Shape};
+use crate::math::Pose;
 use crate::samples::{BLOCK, Family};
 use crate::simd::levels;
 
@@ -84,6 +86,48 @@ fn plain_slices_have_the_bits_of_single_segments() {
             if family.has_f32() {
                 compare_plain::<f32>(family, level, 12);
             }
+        }
+    }
+}
+
+/// A group that is not whole repeats its last segment: one of zero length must not be counted
+/// again.
+#[test]
+fn segments_of_zero_length_are_counted_once() {
+    let near = EndRect::new(1.0, -1.0, 1.0, -1.0, 1.0);
+    let far = EndRect::new(3.0, -3.0, 3.0, -3.0, 3.0);
+    let frustum = Frustum::new(Pose::IDENTITY, Shape::Finite { near, far }).unwrap();
+    // On a face, so that no sign is certain at once.
+    let points = [
+        [2.0, 0.0, 2.0],
+        [0.0, 2.0, 2.0],
+        [1.0, 1.0, 1.0],
+        [0.5, 0.0, 1.0],
+    ];
+    let segments: Vec<Segment<f64>> = (0..11)
+        .map(|i| points[i % 4])
+        .map(|p| Segment::new(p, p))
+        .collect();
+    let single = VwProjection::exact(Accuracy::Fast);
+    for level in levels() {
+        for count in 0..=segments.len() {
+            let (mut clips, mut counts) = (Vec::new(), StageCounts::default());
+            let some = &segments[..count];
+            clip_exact(
+                level,
+                &frustum,
+                some,
+                Accuracy::Fast,
+                &mut clips,
+                &mut counts,
+            )
+            .unwrap();
+            let mut expected = StageCounts::default();
+            for (segment, clip) in some.iter().zip(&clips) {
+                let one = single.clip_segment_counted(&frustum, segment, &mut expected);
+                assert_eq!(one.as_ref(), Ok(clip));
+            }
+            assert_eq!(counts, expected, "{count} segments");
         }
     }
 }

@@ -85,20 +85,18 @@ macro_rules! classify {
                     None => $t::INFINITY,
                 };
                 let near = &planes.near;
-                let mut least = at!(near, b, 0, near.offset);
-                if least < -threshold {
+                let value = at!(near, b, 0, near.offset);
+                if value < -threshold {
                     return OUTSIDE;
                 }
-                let mut face = 0;
+                let (mut is_within, mut face) = (value > threshold, 0);
                 while face < 4 {
                     let side = &planes.sides[face];
                     let value = at!(side, b, 0, side.offset);
                     if value < -threshold {
                         return OUTSIDE;
                     }
-                    if !(value >= least) {
-                        least = value;
-                    }
+                    is_within &= value > threshold;
                     face += 1;
                 }
                 let opposite = at!(near, b, 1, 0.0);
@@ -106,11 +104,9 @@ macro_rules! classify {
                 if value < -threshold {
                     return OUTSIDE;
                 }
-                if !(least > threshold && value > threshold) {
-                    return [0; 3];
-                }
-                if !inside {
-                    return [0, 0, 1];
+                is_within &= value > threshold;
+                if !inside || !is_within {
+                    return [0, 0, u64::from(is_within)];
                 }
                 let (value, far) = (opposite + near.offset, planes.far - at!(near, b, 0, 0.0));
                 let mut is_inside = value > threshold && far > threshold;

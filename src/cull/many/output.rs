@@ -7,7 +7,7 @@ use super::source::Query;
 use crate::cull::{Containment, Culler, VolumeCounts, VolumeErrorAt};
 use crate::simd::compaction::PLACES;
 use crate::simd::{Level, at_width};
-#[cfg(simd)]
+#[cfg(all(simd, any(target_arch = "x86", target_arch = "x86_64")))]
 use fearless_simd::Simd;
 
 /// Takes the bits of a query's volumes, in order.

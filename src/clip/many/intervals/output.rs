@@ -89,7 +89,8 @@ impl<T: Real> SegmentIntervals<T> {
     }
 
     /// Number of segments that were not certain in the batch's own type, and so were clipped as
-    /// a slice in `f64`. It may depend on the machine's vector width; the answers do not.
+    /// a slice in `f64`. It may depend on the machine's vector width, and is 0 without vector
+    /// registers; the answers do not.
     #[must_use]
     pub fn uncertain(&self) -> usize {
         self.uncertain.count

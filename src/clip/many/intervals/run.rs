@@ -11,8 +11,10 @@ use crate::clip::Class;
 use crate::frustum::Frustum;
 use crate::math::{NonFiniteAt, Real, Segment};
 use crate::simd::at_width;
+#[cfg(any(test, target_arch = "x86", target_arch = "x86_64"))]
+use fearless_simd::f32x16;
 use fearless_simd::prelude::*;
-use fearless_simd::{Level, f32x8, f32x16, f64x4};
+use fearless_simd::{Level, f32x8, f64x4};
 
 /// Clips all segments at a vector width.
 #[inline(always)]
@@ -106,7 +108,10 @@ pub(super) fn packs<S: Simd>(simd: S) -> bool {
     #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
     return simd.level().as_avx2().is_some();
     #[cfg(not(any(target_arch = "x86", target_arch = "x86_64")))]
-    return false;
+    {
+        let _ = simd;
+        false
+    }
 }
 
 /// A block of each array from `start` on, if the arrays have so many.

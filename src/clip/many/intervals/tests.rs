@@ -109,6 +109,7 @@ fn families_in_f64_give_what_each_gives_alone() {
 }
 
 /// Registers of sixteen give what those of eight do, at every width.
+#[cfg(simd)]
 #[test]
 fn sixteen_at_a_time_give_the_same() {
     for family in if cfg!(miri) {
@@ -156,6 +157,7 @@ fn frustum() -> Frustum {
 }
 
 /// Segments in no special position are settled in registers, except a few.
+#[cfg(simd)]
 #[test]
 fn hardly_any_segment_of_a_scene_is_uncertain() {
     let mut next = noise();
@@ -225,6 +227,7 @@ fn extreme_sizes_are_as_alone() {
 }
 
 /// A parameter half-way between two `f32`: its interval in `f64` contains both.
+#[cfg(simd)]
 #[test]
 fn a_parameter_between_two_f32_is_found_precisely() {
     let end = |z| EndRect::new(z, -1.0, 1e9, -1e9, 1e9);

@@ -27,6 +27,10 @@ pub(super) trait Widen<S: Simd>: SimdFloat<S, Element = f32> {
 /// Eight values, and their lower and upper words.
 pub(super) struct Table {
     values: [f64; 8],
+    #[cfg_attr(
+        not(any(target_arch = "x86", target_arch = "x86_64")),
+        allow(dead_code, reason = "only AVX2 looks words up")
+    )]
     words: [[u32; 8]; 2],
 }
 
