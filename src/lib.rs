@@ -87,7 +87,8 @@
 //! | feature | adds |
 //! |---|---|
 //! | `parallel` | `.parallel()` on queries, `Culler::par_clip_intervals`: rayon's threads, the same bits |
-//! | `glam`, `nalgebra`, `mint` | conversions of points and matrices |
+//! | `glam` (0.34), `glam033`, `glam030`, `glam027` | conversions of points and matrices: bevy 0.20 and rapier 0.36 have 0.33, macroquad 0.4 has 0.27; one feature does not exclude another |
+//! | `nalgebra` (0.35), `mint` (0.5) | the same; `mint` is the way round for other versions, as are arrays |
 //! | `serde`, `approx` | their traits |
 //! | `samples`, `oracle` | the modules above, for tests of clippers and cullers |
 //!

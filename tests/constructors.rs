@@ -391,3 +391,50 @@ proptest! {
         }
     }
 }
+
+/// The box around a center is the smallest one of its type: rounded outwards, once.
+#[test]
+fn a_box_around_a_center_is_the_smallest() {
+    use frusta::Aabb;
+    use num_rational::BigRational;
+    let exact = |value: f64| BigRational::from_float(value).unwrap();
+    let mut state = 88_172_645_463_325_252_u64;
+    let mut next = |bits: u32| {
+        state ^= state << 13;
+        state ^= state >> 7;
+        state ^= state << 17;
+        // Any magnitude in the middle of the range, and values of few bits.
+        let exponent = (state % 120) as i32 - 60;
+        let mantissa = (state >> 8) as f64 / (1_u64 << 56) as f64 + 1.0;
+        let mantissa = (mantissa * f64::from(1_u32 << bits)).floor();
+        mantissa * 2.0_f64.powi(exponent)
+    };
+    let mut rounded = 0;
+    for i in 0..20_000 {
+        let bits = [3, 12, 30][i % 3];
+        let sign = if i % 2 == 0 { 1.0 } else { -1.0 };
+        let (c, h) = (sign * next(bits), next(bits));
+        let around = Aabb::from_center([c; 3], [h; 3]);
+        let (low, high) = (exact(c) - exact(h), exact(c) + exact(h));
+        let (min, max) = (around.min.x, around.max.x);
+        assert!(exact(min) <= low && exact(max) >= high, "{c} {h}");
+        assert!(
+            exact(min.next_up()) > low && exact(max.next_down()) < high,
+            "{c} {h}"
+        );
+        let (c, h) = (c as f32, h as f32);
+        let around = Aabb::from_center([c; 3], [h; 3]);
+        let (c, h) = (exact(c.into()), exact(h.into()));
+        let (min, max) = (around.min.y, around.max.y);
+        rounded += usize::from(exact(max.into()) != &c + &h);
+        assert!(exact(min.into()) <= &c - &h && exact(max.into()) >= &c + &h);
+        assert!(exact(min.next_up().into()) > &c - &h && exact(max.next_down().into()) < &c + &h);
+    }
+    assert!(rounded > 1_000, "{rounded}");
+    // Beyond the largest value nothing is a box, and nothing is hidden.
+    let too_large = Aabb::from_center([f64::MAX; 3], [f64::MAX; 3]);
+    assert!(
+        too_large.check().is_err() && Aabb::from_center([f32::NAN; 3], [1.0; 3]).check().is_err()
+    );
+    assert!(Aabb::from_center([0.0; 3], [-1.0; 3]).check().is_err());
+}

@@ -316,3 +316,33 @@ mod serde {
         }
     }
 }
+
+/// Every version of glam that has a feature: both ways, bit for bit.
+macro_rules! glam_versions {
+    ($($feature:literal $glam:ident;)*) => {$(
+        #[cfg(feature = $feature)]
+        #[test]
+        fn $glam() {
+            use ::$glam::{DMat4, DVec3, Mat4, Vec3 as V, Vec3A};
+            let v = V::new(1.0, -0.0, 3.5);
+            assert_eq!(Vec3::from(v), Vec3::new(1.0, -0.0, 3.5));
+            assert_eq!(V::from(Vec3::from(v)), v);
+            assert_eq!(Vec3A::from(Vec3::from(Vec3A::from(v))), Vec3A::from(v));
+            let d = DVec3::new(0.1, 0.2, 0.3);
+            assert_eq!(DVec3::from(Vec3::from(d)), d);
+            let columns: [f32; 16] = std::array::from_fn(|i| i as f32);
+            let matrix = Mat4::from_cols_array(&columns);
+            let layout = MatrixLayout::ColumnMajorColumnVectors;
+            assert_eq!(ViewProjection::from(matrix), ViewProjection::from_flat(columns, layout));
+            assert_eq!(Mat4::from(ViewProjection::from(matrix)), matrix);
+            let matrix = DMat4::from_cols_array(&columns.map(f64::from));
+            assert_eq!(DMat4::from(ViewProjection::from(matrix)), matrix);
+        }
+    )*};
+}
+
+glam_versions! {
+    "glam027" glam027;
+    "glam030" glam030;
+    "glam033" glam033;
+}

@@ -117,6 +117,24 @@ impl<T: Real> SegmentClip<T> {
         part: None,
     };
 
+    /// Whether all of the segment is in the frustum, so that it can be drawn as it was given.
+    ///
+    /// ```
+    /// use frusta::{EndRect, Frustum, Pose, Segment, Shape};
+    /// # let near = EndRect::new(1.0, -1.0, 1.0, -1.0, 1.0);
+    /// # let far = EndRect::new(3.0, -3.0, 3.0, -3.0, 3.0);
+    /// # let frustum = Frustum::new(Pose::IDENTITY, Shape::Finite { near, far })?;
+    /// let whole = |to| frustum.clip_segment(&Segment::new([0.0, 0.0, 2.0], to)).map(|c| c.is_whole());
+    /// assert_eq!(whole([2.0, 0.0, 2.0]), Ok(true));
+    /// assert_eq!(whole([3.0, 0.0, 2.0]), Ok(false));
+    /// # Ok::<(), frusta::FrustumError>(())
+    /// ```
+    #[must_use]
+    pub fn is_whole(&self) -> bool {
+        let part = self.part.as_ref();
+        part.is_some_and(|part| !part.entry.clipped && !part.exit.clipped)
+    }
+
     /// The entry point and the exit point, if the segment meets the frustum.
     #[must_use]
     pub fn points(&self) -> Option<[Vec3<T>; 2]> {

@@ -15,6 +15,10 @@ pub struct VolumeCounts {
     /// Volumes of a query over many that its kernel left open, and that were classified one by
     /// one.
     pub undecided: u64,
+    /// Volumes that [`VolumeQuery::keep_invalid`] took as crossing.
+    ///
+    /// [`VolumeQuery::keep_invalid`]: crate::cull::VolumeQuery::keep_invalid
+    pub invalid: u64,
     /// Signs that the floating-point filter left open, whichever later stage decided
     /// them.
     pub filter_failures: u64,
@@ -47,6 +51,7 @@ impl VolumeCounts {
 impl AddAssign for VolumeCounts {
     fn add_assign(&mut self, other: Self) {
         self.undecided += other.undecided;
+        self.invalid += other.invalid;
         self.filter_failures += other.filter_failures;
         self.double_doubles += other.double_doubles;
         self.expansions += other.expansions;

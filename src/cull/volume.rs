@@ -230,6 +230,35 @@ impl<T: Real> Aabb<T> {
         }
     }
 
+    /// The smallest box with coordinates of this type that contains the points no farther than
+    /// `half_extents` from `center` in each coordinate, unchecked.
+    ///
+    /// Each side is rounded outwards, so that nothing of an object between them is lost.
+    ///
+    /// ```
+    /// use frusta::Aabb;
+    /// let unit = Aabb::from_center([0.5_f32, 0.5, 0.5], [0.5, 0.5, 0.5]);
+    /// assert_eq!(unit, Aabb::new([0.0; 3], [1.0; 3]));
+    /// let thin = Aabb::from_center([1.0_f32; 3], [1e-9; 3]);
+    /// assert!(thin.min.x < 1.0 && 1.0 < thin.max.x);
+    /// ```
+    #[must_use]
+    pub fn from_center(center: impl Into<Vec3<T>>, half_extents: impl Into<Vec3<T>>) -> Self {
+        let (c, h) = (center.into(), half_extents.into());
+        // The sum, and what rounding left of it, exactly.
+        let high = |a: T, b: T| {
+            let sum = a + b;
+            let part = sum - a;
+            let rest = (a - (sum - part)) + (b - part);
+            if rest > T::ZERO { sum.next_up() } else { sum }
+        };
+        let low = |a: T, b: T| -high(-a, b);
+        Self {
+            min: Vec3::new(low(c.x, h.x), low(c.y, h.y), low(c.z, h.z)),
+            max: Vec3::new(high(c.x, h.x), high(c.y, h.y), high(c.z, h.z)),
+        }
+    }
+
     /// The smallest box that contains these points; `None` if there are none. A coordinate that
     /// is NaN may be ignored.
     #[must_use]

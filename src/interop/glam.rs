@@ -1,12 +1,14 @@
 //! `glam`: `Vec3`, `Vec3A`, `DVec3` as points, `Mat4`, `DMat4` as
 //! view-projection matrices (columns, acting on column vectors).
+//!
+//! One feature a version, as one program may have several: cargo does not choose one that suits
+//! all, even where a range of versions would allow it.
 
 use crate::frustum::{MatrixLayout, ViewProjection};
 use crate::math::Vec3;
-use glam::{DMat4, DVec3, Mat4, Vec3 as GlamVec3, Vec3A};
 
 macro_rules! vectors {
-    ($($theirs:ident, $scalar:ident;)*) => {$(
+    ($($theirs:ty, $scalar:ident;)*) => {$(
         impl From<$theirs> for Vec3<$scalar> {
             #[inline(always)]
             fn from(v: $theirs) -> Self {
@@ -23,14 +25,8 @@ macro_rules! vectors {
     )*};
 }
 
-vectors! {
-    GlamVec3, f32;
-    Vec3A, f32;
-    DVec3, f64;
-}
-
 macro_rules! matrices {
-    ($($theirs:ident, $scalar:ident;)*) => {$(
+    ($($theirs:ty, $scalar:ident;)*) => {$(
         impl From<$theirs> for ViewProjection<$scalar> {
             fn from(m: $theirs) -> Self {
                 Self::new(m.to_cols_array_2d(), MatrixLayout::ColumnMajorColumnVectors)
@@ -45,7 +41,29 @@ macro_rules! matrices {
     )*};
 }
 
-matrices! {
-    Mat4, f32;
-    DMat4, f64;
+macro_rules! conversions {
+    ($($feature:literal $glam:ident;)*) => {$(
+        #[cfg(feature = $feature)]
+        mod $glam {
+            use super::*;
+
+            vectors! {
+                ::$glam::Vec3, f32;
+                ::$glam::Vec3A, f32;
+                ::$glam::DVec3, f64;
+            }
+
+            matrices! {
+                ::$glam::Mat4, f32;
+                ::$glam::DMat4, f64;
+            }
+        }
+    )*};
+}
+
+conversions! {
+    "glam" glam;
+    "glam027" glam027;
+    "glam030" glam030;
+    "glam033" glam033;
 }

@@ -1,4 +1,5 @@
-//! Conversions to and from the types of other libraries, with one feature for each.
+//! Conversions to and from the types of other libraries, with one feature for each
+//! (of glam, for each version).
 //!
 //! All are exact, and nothing but moves. Matrices convert to and from
 //! [`ViewProjection`](crate::ViewProjection), each with the layout that its library
@@ -6,7 +7,12 @@
 
 #[cfg(feature = "approx")]
 mod approx;
-#[cfg(feature = "glam")]
+#[cfg(any(
+    feature = "glam",
+    feature = "glam027",
+    feature = "glam030",
+    feature = "glam033"
+))]
 mod glam;
 #[cfg(feature = "mint")]
 mod mint;

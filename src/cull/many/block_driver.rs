@@ -111,9 +111,17 @@ pub(super) trait Volumes<T: Real, const K: usize> {
 pub(super) type Kernel<T, const K: usize> =
     fn(Level, &FacePlanes<T>, &Block<T, K>, Option<T>, bool) -> BlockAnswers;
 
+/// What is asked about volumes, whichever they are.
+#[derive(Clone, Copy, Debug)]
+pub struct Request<'a> {
+    pub(super) culler: &'a Culler,
+    /// Whether an invalid volume is crossing, and no error.
+    pub(super) keeps_invalid: bool,
+}
+
 /// What classifies volumes, block by block.
 pub(super) struct BlockDriver<'a, T, V> {
-    pub(super) culler: &'a Culler,
+    pub(super) request: Request<'a>,
     pub(super) planes: &'a FacePlanes<T>,
     pub(super) volumes: &'a V,
     pub(super) level: Level,
@@ -247,10 +255,14 @@ impl<T: Real, Vols> BlockDriver<'_, T, Vols> {
             let Some(volume) = self.volumes.volume(index) else {
                 continue;
             };
-            let class = self
-                .culler
-                .classify_counted(volume, counts)
-                .map_err(|error| VolumeErrorAt { index, error })?;
+            let class = match self.request.culler.classify_counted(volume, counts) {
+                Ok(class) => class,
+                Err(_) if self.request.keeps_invalid => {
+                    counts.invalid += 1;
+                    Containment::Crossing
+                }
+                Err(error) => return Err(VolumeErrorAt { index, error }),
+            };
             bits.outside |= if class == Containment::Outside {
                 bit
             } else {

@@ -58,10 +58,7 @@ impl<T: Real> BoxSet<T> {
     /// The first box that fails [`Aabb::check`].
     pub fn new(boxes: impl IntoIterator<Item = Aabb<T>>) -> Result<Self, VolumeErrorAt> {
         let mut set = Self::default();
-        for (index, volume) in boxes.into_iter().enumerate() {
-            let done = set.push(volume);
-            done.map_err(|error| VolumeErrorAt { index, error })?;
-        }
+        set.extend(boxes)?;
         Ok(set)
     }
 
@@ -117,6 +114,68 @@ impl<T: Real> BoxSet<T> {
         volume.check()?;
         self.put(index, volume);
         Ok(())
+    }
+
+    /// Appends boxes.
+    ///
+    /// # Errors
+    /// The first box that fails [`Aabb::check`], with its index among these; none is then
+    /// appended.
+    pub fn extend(
+        &mut self,
+        boxes: impl IntoIterator<Item = Aabb<T>>,
+    ) -> Result<(), VolumeErrorAt> {
+        let before = self.len;
+        for (index, volume) in boxes.into_iter().enumerate() {
+            if let Err(error) = self.push(volume) {
+                self.truncate(before);
+                return Err(VolumeErrorAt { index, error });
+            }
+        }
+        Ok(())
+    }
+
+    /// Removes the box at an index and returns it; the last box takes its place.
+    ///
+    /// ```
+    /// use frusta::Aabb;
+    /// use frusta::cull::BoxSet;
+    /// let mut set = BoxSet::new((0..3_u8).map(|x| Aabb::new([f32::from(x); 3], [9.0; 3])))?;
+    /// assert_eq!(set.swap_remove(0).min.x, 0.0);
+    /// assert!(set.iter().map(|b| b.min.x).eq([2.0, 1.0]));
+    /// # Ok::<(), frusta::cull::VolumeErrorAt>(())
+    /// ```
+    ///
+    /// # Panics
+    /// If the index is not below the length.
+    pub fn swap_remove(&mut self, index: usize) -> Aabb<T> {
+        let len = self.len;
+        assert!(index < len, "the index is {index} but the length is {len}");
+        let stored = Stored::from(&*self);
+        let (removed, last) = (stored.get(index), stored.get(len - 1));
+        self.put(index, last.unwrap_or_default());
+        self.truncate(len - 1);
+        removed.unwrap_or_default()
+    }
+
+    /// Removes all boxes from an index on.
+    fn truncate(&mut self, len: usize) {
+        let blocks = len.div_ceil(BLOCK);
+        for index in len..self.len.min(blocks * BLOCK) {
+            self.put(index, Aabb::default());
+        }
+        self.blocks.truncate(blocks);
+        self.largest.truncate(blocks);
+        self.len = len;
+    }
+
+    /// The boxes in order.
+    pub fn iter(&self) -> impl DoubleEndedIterator<Item = Aabb<T>> + ExactSizeIterator + '_ {
+        let stored = Stored::from(self);
+        (0..self.len).map(move |index| {
+            let [x0, y0, z0, x1, y1, z1] = stored.components(index);
+            Aabb::new([x0, y0, z0], [x1, y1, z1])
+        })
     }
 
     /// Removes all boxes and keeps the memory.

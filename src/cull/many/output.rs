@@ -1,10 +1,10 @@
 //! Where a query's answers go: the three buffers of a caller, and the sinks that fill them.
 
 use super::ContainmentMasks;
-use super::block_driver::{BLOCK, BlockAnswers, WORD};
+use super::block_driver::{BLOCK, BlockAnswers, Request, WORD};
 use super::masks::visible;
 use super::source::Query;
-use crate::cull::{Containment, Culler, VolumeCounts, VolumeErrorAt};
+use crate::cull::{Containment, VolumeCounts, VolumeErrorAt};
 use crate::simd::compaction::PLACES;
 use crate::simd::{Level, at_width};
 #[cfg(all(simd, any(target_arch = "x86", target_arch = "x86_64")))]
@@ -31,7 +31,7 @@ pub(super) trait Output {
     /// Replaces the content by a query's answers. On an error the content is unspecified.
     fn write(
         &mut self,
-        culler: &Culler,
+        request: Request<'_>,
         query: &dyn Query,
         counts: &mut VolumeCounts,
     ) -> Result<(), VolumeErrorAt>;
@@ -40,7 +40,7 @@ pub(super) trait Output {
     #[cfg(feature = "parallel")]
     fn write_parallel(
         &mut self,
-        culler: &Culler,
+        request: Request<'_>,
         query: &dyn Query,
     ) -> Result<VolumeCounts, VolumeErrorAt>;
 }
@@ -52,21 +52,21 @@ impl Output for ContainmentMasks {
 
     fn write(
         &mut self,
-        culler: &Culler,
+        request: Request<'_>,
         query: &dyn Query,
         counts: &mut VolumeCounts,
     ) -> Result<(), VolumeErrorAt> {
         let mut bits = self.prepare(query.count());
-        query.run(0..query.count(), culler, &mut bits, counts)
+        query.run(0..query.count(), request, &mut bits, counts)
     }
 
     #[cfg(feature = "parallel")]
     fn write_parallel(
         &mut self,
-        culler: &Culler,
+        request: Request<'_>,
         query: &dyn Query,
     ) -> Result<VolumeCounts, VolumeErrorAt> {
-        super::parallel::masks(culler, query, self)
+        super::parallel::masks(request, query, self)
     }
 }
 
@@ -77,21 +77,21 @@ impl Output for Vec<Containment> {
 
     fn write(
         &mut self,
-        culler: &Culler,
+        request: Request<'_>,
         query: &dyn Query,
         counts: &mut VolumeCounts,
     ) -> Result<(), VolumeErrorAt> {
         self.resize(query.count(), Containment::Outside);
-        query.run(0..query.count(), culler, &mut Classes(self), counts)
+        query.run(0..query.count(), request, &mut Classes(self), counts)
     }
 
     #[cfg(feature = "parallel")]
     fn write_parallel(
         &mut self,
-        culler: &Culler,
+        request: Request<'_>,
         query: &dyn Query,
     ) -> Result<VolumeCounts, VolumeErrorAt> {
-        super::parallel::classes(culler, query, self)
+        super::parallel::classes(request, query, self)
     }
 }
 
@@ -102,21 +102,26 @@ impl Output for Vec<u32> {
 
     fn write(
         &mut self,
-        culler: &Culler,
+        request: Request<'_>,
         query: &dyn Query,
         counts: &mut VolumeCounts,
     ) -> Result<(), VolumeErrorAt> {
         self.clear();
-        query.run(0..query.count(), culler, &mut Indices::new(self, 0), counts)
+        query.run(
+            0..query.count(),
+            request,
+            &mut Indices::new(self, 0),
+            counts,
+        )
     }
 
     #[cfg(feature = "parallel")]
     fn write_parallel(
         &mut self,
-        culler: &Culler,
+        request: Request<'_>,
         query: &dyn Query,
     ) -> Result<VolumeCounts, VolumeErrorAt> {
-        super::parallel::indices(culler, query, self)
+        super::parallel::indices(request, query, self)
     }
 }
 

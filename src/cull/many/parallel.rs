@@ -9,11 +9,11 @@
 //! as long as some ten thousand answers, and many queries are not much longer.
 
 use super::ContainmentMasks;
-use super::block_driver::{BLOCK, WORD};
+use super::block_driver::{BLOCK, Request, WORD};
 use super::masks::MaskBits;
 use super::output::{Classes, Indices, Sink};
 use super::source::Query;
-use crate::cull::{Containment, Culler, VolumeCounts, VolumeErrorAt};
+use crate::cull::{Containment, VolumeCounts, VolumeErrorAt};
 use std::ops::Range;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
@@ -28,7 +28,7 @@ pub(in crate::cull) fn piece_range(piece: usize, len: usize) -> Range<usize> {
 }
 
 pub(super) fn masks(
-    culler: &Culler,
+    request: Request<'_>,
     query: &dyn Query,
     masks: &mut ContainmentMasks,
 ) -> Result<VolumeCounts, VolumeErrorAt> {
@@ -36,25 +36,25 @@ pub(super) fn masks(
     let outside = bits.outside.chunks_mut(PIECE / WORD);
     let pieces = outside.zip(bits.inside.chunks_mut(PIECE / WORD));
     let counts = by_all(pieces, |piece, (outside, inside)| {
-        run_piece(culler, query, piece, &mut MaskBits { outside, inside })
+        run_piece(request, query, piece, &mut MaskBits { outside, inside })
     })?;
     Ok(counts.into_iter().sum())
 }
 
 pub(super) fn classes(
-    culler: &Culler,
+    request: Request<'_>,
     query: &dyn Query,
     classes: &mut Vec<Containment>,
 ) -> Result<VolumeCounts, VolumeErrorAt> {
     classes.resize(query.count(), Containment::Outside);
     let counts = by_all(classes.chunks_mut(PIECE), |piece, classes| {
-        run_piece(culler, query, piece, &mut Classes(classes))
+        run_piece(request, query, piece, &mut Classes(classes))
     })?;
     Ok(counts.into_iter().sum())
 }
 
 pub(super) fn indices(
-    culler: &Culler,
+    request: Request<'_>,
     query: &dyn Query,
     indices: &mut Vec<u32>,
 ) -> Result<VolumeCounts, VolumeErrorAt> {
@@ -62,7 +62,7 @@ pub(super) fn indices(
     let lists = by_all(0..query.count().div_ceil(PIECE), |_, piece| {
         let mut list = Vec::new();
         let mut sink = Indices::new(&mut list, (piece * PIECE) as u32);
-        let counts = run_piece(culler, query, piece, &mut sink)?;
+        let counts = run_piece(request, query, piece, &mut sink)?;
         Ok((list, counts))
     })?;
     indices.reserve(lists.iter().map(|(list, _)| list.len()).sum());
@@ -75,13 +75,13 @@ pub(super) fn indices(
 }
 
 fn run_piece(
-    culler: &Culler,
+    request: Request<'_>,
     query: &dyn Query,
     piece: usize,
     out: &mut dyn Sink,
 ) -> Result<VolumeCounts, VolumeErrorAt> {
     let mut counts = VolumeCounts::default();
-    query.run(piece_range(piece, query.count()), culler, out, &mut counts)?;
+    query.run(piece_range(piece, query.count()), request, out, &mut counts)?;
     Ok(counts)
 }
 

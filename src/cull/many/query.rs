@@ -1,6 +1,7 @@
 //! A query over many volumes: a source, options, then one of three outputs.
 
 use super::ContainmentMasks;
+use super::block_driver::Request;
 use super::output::Output;
 use super::source::{Query, VolumeSource};
 use crate::cull::{Containment, Culler, VolumeCounts, VolumeErrorAt};
@@ -9,8 +10,9 @@ impl Culler {
     /// Starts a query over many axis-aligned boxes or spheres: each answer is that of
     /// [`Culler::classify`], which takes oriented boxes, too.
     ///
-    /// A query takes options, [`parallel`](VolumeQuery::parallel) and
-    /// [`counted`](VolumeQuery::counted), then writes one output:
+    /// A query takes options, [`parallel`](VolumeQuery::parallel),
+    /// [`keep_invalid`](VolumeQuery::keep_invalid) and [`counted`](VolumeQuery::counted), then
+    /// writes one output:
     ///
     /// | output | for each volume | use |
     /// |---|---|---|
@@ -49,8 +51,12 @@ impl Culler {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn over<S: VolumeSource>(&self, source: S) -> VolumeQuery<'_, S> {
-        VolumeQuery {
+        let request = Request {
             culler: self,
+            keeps_invalid: false,
+        };
+        VolumeQuery {
+            request,
             source,
             counts: None,
             is_parallel: false,
@@ -64,7 +70,7 @@ impl Culler {
 #[derive(Debug)]
 #[must_use = "a query runs when it is given an output: `visible`, `classes` or `masks`"]
 pub struct VolumeQuery<'q, S> {
-    culler: &'q Culler,
+    request: Request<'q>,
     source: S,
     counts: Option<&'q mut VolumeCounts>,
     is_parallel: bool,
@@ -103,14 +109,43 @@ impl<'q, S: VolumeSource> VolumeQuery<'q, S> {
         self
     }
 
+    /// Takes a volume that fails its `check` as crossing, instead of failing: whatever else is in
+    /// view is still drawn. The others' answers do not change.
+    ///
+    /// [`VolumeCounts::invalid`], by [`counted`](VolumeQuery::counted), says how many there are.
+    ///
+    /// ```
+    /// use frusta::{Aabb, Containment, Culler, EndRect, Frustum, Pose, Shape, VolumeCounts};
+    /// # let near = EndRect::new(1.0, -1.0, 1.0, -1.0, 1.0);
+    /// # let far = EndRect::new(3.0, -3.0, 3.0, -3.0, 3.0);
+    /// # let frustum = Frustum::new(Pose::IDENTITY, Shape::Finite { near, far })?;
+    /// let culler = Culler::new(&frustum);
+    /// let boxes = [
+    ///     Aabb::new([0.0_f32, 0.0, 2.0], [0.5, 0.5, 2.5]),
+    ///     Aabb::new([9.0, 0.0, 2.0], [9.5, 0.5, 2.5]),
+    ///     Aabb::new([9.0, f32::NAN, 2.0], [9.5, 0.5, 2.5]),
+    /// ];
+    /// let mut visible = Vec::new();
+    /// assert_eq!(culler.over(&boxes).visible(&mut visible).unwrap_err().index, 2);
+    ///
+    /// let mut counts = VolumeCounts::default();
+    /// culler.over(&boxes).keep_invalid().counted(&mut counts).visible(&mut visible)?;
+    /// assert_eq!((visible, counts.invalid), (vec![0, 2], 1));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn keep_invalid(mut self) -> Self {
+        self.request.keeps_invalid = true;
+        self
+    }
+
     /// Writes the indices of the volumes that are not outside, in the order of the source.
     ///
     /// Whether a volume is inside need not be decided, so this takes a third less time than
     /// classes. Beyond 2^32 volumes indices start again at 0.
     ///
     /// # Errors
-    /// The first volume that fails its `check`; `indices` is then empty. The volumes of a
-    /// [`BoxSet`](super::BoxSet) or of [`RelativeBoxes`](super::RelativeBoxes) were checked
+    /// The first volume that fails its `check`, without [`keep_invalid`](VolumeQuery::keep_invalid);
+    /// `indices` is then empty. The volumes of a [`BoxSet`](super::BoxSet) or of [`RelativeBoxes`](super::RelativeBoxes) were checked
     /// before: a query over these never fails.
     pub fn visible(self, indices: &mut Vec<u32>) -> Result<(), VolumeErrorAt> {
         self.write_to(indices)
@@ -133,13 +168,13 @@ impl<'q, S: VolumeSource> VolumeQuery<'q, S> {
     }
 
     fn write_to(self, output: &mut dyn Output) -> Result<(), VolumeErrorAt> {
-        let query = self.source.query(self.culler);
-        write(self.culler, &query, self.is_parallel, output, self.counts)
+        let query = self.source.query(self.request.culler);
+        write(self.request, &query, self.is_parallel, output, self.counts)
     }
 }
 
 fn write(
-    culler: &Culler,
+    request: Request<'_>,
     query: &dyn Query,
     is_parallel: bool,
     output: &mut dyn Output,
@@ -147,9 +182,9 @@ fn write(
 ) -> Result<(), VolumeErrorAt> {
     let mut counts = VolumeCounts::default();
     let done = if is_parallel {
-        write_parallel(culler, query, output, &mut counts)
+        write_parallel(request, query, output, &mut counts)
     } else {
-        output.write(culler, query, &mut counts)
+        output.write(request, query, &mut counts)
     };
     match (&done, total) {
         (Ok(()), Some(total)) => *total += counts,
@@ -161,22 +196,22 @@ fn write(
 
 #[cfg(feature = "parallel")]
 fn write_parallel(
-    culler: &Culler,
+    request: Request<'_>,
     query: &dyn Query,
     output: &mut dyn Output,
     counts: &mut VolumeCounts,
 ) -> Result<(), VolumeErrorAt> {
-    *counts = output.write_parallel(culler, query)?;
+    *counts = output.write_parallel(request, query)?;
     Ok(())
 }
 
 /// Without the feature no query is parallel.
 #[cfg(not(feature = "parallel"))]
 fn write_parallel(
-    culler: &Culler,
+    request: Request<'_>,
     query: &dyn Query,
     output: &mut dyn Output,
     counts: &mut VolumeCounts,
 ) -> Result<(), VolumeErrorAt> {
-    output.write(culler, query, counts)
+    output.write(request, query, counts)
 }

@@ -184,6 +184,101 @@ fn layouts_are_indexed_and_measured_alike() {
     assert_eq!(Boxes::from(&boxes).len(), 1);
 }
 
+/// Volumes, some of them invalid, by both policies and in every output.
+fn check_invalid<S: VolumeSource + Copy + Sync>(
+    culler: &Culler,
+    source: S,
+    expected: &[Option<Containment>],
+) {
+    let invalid = expected.iter().filter(|class| class.is_none()).count();
+    let first = expected.iter().position(Option::is_none).unwrap();
+    let expected: Vec<_> = expected
+        .iter()
+        .map(|c| c.unwrap_or(Containment::Crossing))
+        .collect();
+    let options: &[fn(VolumeQuery<'_, S>) -> VolumeQuery<'_, S>] = &[
+        |query| query,
+        #[cfg(feature = "parallel")]
+        |query| query.parallel(),
+    ];
+    for option in options {
+        let query = || option(culler.over(source));
+        let (mut list, mut classes) = (vec![7], vec![Containment::Inside]);
+        let mut masks = ContainmentMasks::default();
+        let errors = [
+            query().visible(&mut list),
+            query().classes(&mut classes),
+            query().masks(&mut masks),
+        ];
+        assert!(errors.iter().all(|e| e.unwrap_err().index == first));
+        assert!(list.is_empty() && classes.is_empty() && masks.is_empty());
+        let mut counts = <[VolumeCounts; 3]>::default();
+        let [a, b, c] = &mut counts;
+        query()
+            .keep_invalid()
+            .counted(a)
+            .visible(&mut list)
+            .unwrap();
+        query()
+            .counted(b)
+            .keep_invalid()
+            .classes(&mut classes)
+            .unwrap();
+        query().keep_invalid().counted(c).masks(&mut masks).unwrap();
+        assert!(list == visible(&expected));
+        assert!(classes == expected);
+        assert!((0..expected.len()).all(|i| masks.get(i) == Some(expected[i])));
+        assert!(counts.iter().all(|counts| counts.invalid == invalid as u64));
+    }
+}
+
+#[test]
+fn one_bad_volume_in_a_frame_hides_nothing() {
+    fn check<T: Real>(culler: &Culler) {
+        let (nan, infinity) = (T::from_f64(f64::NAN), T::from_f64(f64::INFINITY));
+        let mut boxes = boxes::<T>();
+        let mut expected: Vec<_> = one_by_one(culler, &boxes).into_iter().map(Some).collect();
+        let [a, b, c, d] = [300, 301, 8_200, COUNT - 1];
+        boxes[a].max.y = nan;
+        boxes[b].max.x = infinity;
+        let valid = boxes[c];
+        boxes[c] = Aabb::new(valid.max, valid.min);
+        boxes[d] = Aabb::new([infinity; 3], [-infinity; 3]);
+        for bad in [a, b, c, d] {
+            expected[bad] = None;
+        }
+        check_invalid(culler, &boxes, &expected);
+        let corners = columns(&boxes, |b| {
+            let [[a, b, c], [d, e, f]] = [b.min.to_array(), b.max.to_array()];
+            [a, b, c, d, e, f]
+        });
+        let [a, b, c, d, e, f] = corners.each_ref().map(Vec::as_slice);
+        let (min, max) = ([a, b, c], [d, e, f]);
+        check_invalid(culler, BoxArrays { min, max }, &expected);
+
+        let mut spheres = spheres::<T>();
+        let mut expected: Vec<_> = one_by_one(culler, &spheres).into_iter().map(Some).collect();
+        let [a, b, c] = [2, 300, COUNT - 1];
+        spheres[a].radius = -T::ONE;
+        spheres[b].center.z = nan;
+        spheres[c].radius = infinity;
+        for bad in [a, b, c] {
+            expected[bad] = None;
+        }
+        check_invalid(culler, &spheres, &expected);
+        let components = columns(&spheres, |s| {
+            let [x, y, z] = s.center.to_array();
+            [x, y, z, s.radius]
+        });
+        let [x, y, z, radius] = components.each_ref().map(Vec::as_slice);
+        let center = [x, y, z];
+        check_invalid(culler, SphereArrays { center, radius }, &expected);
+    }
+    let culler = culler_to_3();
+    check::<f32>(&culler);
+    check::<f64>(&culler);
+}
+
 #[test]
 fn a_failed_query_counts_nothing() {
     let culler = culler_to_3();
@@ -193,4 +288,38 @@ fn a_failed_query_counts_nothing() {
     let query = culler.over(&boxes).counted(&mut counts);
     assert_eq!(query.visible(&mut Vec::new()).unwrap_err().index, 1);
     assert_eq!(counts, VolumeCounts::default());
+}
+
+/// Content, and answers, of a set that changes are those of a vector that changes with it.
+#[test]
+fn a_set_changes_as_a_vector_does() {
+    fn check<T: Real>(culler: &Culler) {
+        let all = boxes::<T>();
+        let (mut set, mut boxes) = (BoxSet::default(), Vec::new());
+        let mut place = 77;
+        for round in 0..5 {
+            let more = &all[round * 700..round * 700 + 513];
+            set.extend(more.iter().copied()).unwrap();
+            boxes.extend_from_slice(more);
+            let bad = [all[0], Aabb::new([T::ONE; 3], [T::ZERO; 3])];
+            assert_eq!(set.extend(bad).unwrap_err().index, 1);
+            for _ in 0..300 {
+                place = place * 31 % boxes.len();
+                assert_eq!(set.swap_remove(place), boxes.swap_remove(place));
+            }
+            assert!(set.iter().eq(boxes.iter().copied()));
+            assert!(set.iter().rev().eq(boxes.iter().rev().copied()));
+            assert_eq!(set.iter().len(), boxes.len());
+            let mut classes = Vec::new();
+            culler.over(&set).classes(&mut classes).unwrap();
+            assert!(classes == one_by_one(culler, &boxes));
+        }
+        for _ in 0..boxes.len() {
+            set.swap_remove(0);
+        }
+        assert!(set.is_empty() && set.iter().next().is_none());
+    }
+    let culler = culler_to_3();
+    check::<f32>(&culler);
+    check::<f64>(&culler);
 }

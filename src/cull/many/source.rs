@@ -1,6 +1,6 @@
 //! Where a query's volumes come from.
 
-use super::block_driver::{BlockDriver, Volumes};
+use super::block_driver::{BlockDriver, Request, Volumes};
 use super::boxes::{BoxArrays, Boxes};
 use super::relative::{RelativeBoxes, RelativeQuery};
 use super::spheres::{SphereArrays, Spheres};
@@ -45,7 +45,7 @@ mod sealed {
         fn run(
             &self,
             range: Range<usize>,
-            culler: &Culler,
+            request: Request<'_>,
             out: &mut dyn Sink,
             counts: &mut VolumeCounts,
         ) -> Result<(), VolumeErrorAt>;
@@ -93,13 +93,13 @@ macro_rules! run {
         fn run(
             volumes: &$volumes,
             range: Range<usize>,
-            culler: &Culler,
+            request: Request<'_>,
             out: &mut dyn Sink,
             counts: &mut VolumeCounts,
         ) -> Result<(), VolumeErrorAt> {
             let driver = BlockDriver {
-                culler,
-                planes: culler.face_planes().$planes(),
+                request,
+                planes: request.culler.face_planes().$planes(),
                 volumes,
                 level: Level::new(),
             };
@@ -121,11 +121,11 @@ macro_rules! query {
             fn run(
                 &self,
                 range: Range<usize>,
-                culler: &Culler,
+                request: Request<'_>,
                 out: &mut dyn Sink,
                 counts: &mut VolumeCounts,
             ) -> Result<(), VolumeErrorAt> {
-                T::pick(&$runs)(self, range, culler, out, counts)
+                T::pick(&$runs)(self, range, request, out, counts)
             }
         }
 
@@ -135,7 +135,7 @@ macro_rules! query {
             type Of<T: Real> = fn(
                 &$volumes<'_, T>,
                 Range<usize>,
-                &Culler,
+                Request<'_>,
                 &mut dyn Sink,
                 &mut VolumeCounts,
             ) -> Result<(), VolumeErrorAt>;
@@ -162,12 +162,12 @@ impl Query for RelativeQuery<'_> {
     fn run(
         &self,
         range: Range<usize>,
-        culler: &Culler,
+        request: Request<'_>,
         out: &mut dyn Sink,
         counts: &mut VolumeCounts,
     ) -> Result<(), VolumeErrorAt> {
         let driver = BlockDriver {
-            culler,
+            request,
             planes: &self.planes,
             volumes: self,
             level: Level::new(),

@@ -1,6 +1,6 @@
 //! Kernels compared with one volume at a time, at every vector width.
 
-use super::block_driver::{BlockDriver, Volumes};
+use super::block_driver::{BlockDriver, Request, Volumes};
 use super::boxes::Boxes;
 use super::output::{Classes, Indices, Sink};
 use super::spheres::Spheres;
@@ -90,7 +90,10 @@ fn compare<T: Real, const K: usize>(
     let visible = visible(&expected);
     for level in levels() {
         let driver = BlockDriver {
-            culler,
+            request: Request {
+                culler,
+                keeps_invalid: false,
+            },
             planes: T::pick(culler.face_planes()),
             volumes: &volumes,
             level,
