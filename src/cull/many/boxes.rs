@@ -53,6 +53,12 @@ impl<'a, T> From<BoxArrays<'a, T>> for Boxes<'a, T> {
     }
 }
 
+impl<'a, T: Copy> From<&BoxArrays<'a, T>> for Boxes<'a, T> {
+    fn from(arrays: &BoxArrays<'a, T>) -> Self {
+        Boxes::Arrays(*arrays)
+    }
+}
+
 impl<'a, T> From<&'a [Aabb<T>]> for Boxes<'a, T> {
     fn from(boxes: &'a [Aabb<T>]) -> Self {
         Boxes::Slice(boxes)

@@ -132,7 +132,9 @@ fn check_sources<T: Real>(culler: &Culler) {
     });
     let [a, b, c, d, e, f] = corners.each_ref().map(Vec::as_slice);
     let (min, max) = ([a, b, c], [d, e, f]);
-    check(culler, BoxArrays { min, max }, &expected, "arrays of boxes");
+    let arrays = BoxArrays { min, max };
+    check(culler, arrays, &expected, "arrays of boxes");
+    check(culler, &arrays, &expected, "arrays by reference");
 
     let spheres = spheres::<T>();
     let expected = one_by_one(culler, &spheres);

@@ -18,8 +18,8 @@ pub(super) use sealed::{Query, Source};
 /// |---|---|---|
 /// | `&`[`BoxSet`] | both | fastest: checked and laid out once, for boxes that are kept |
 /// | `&`[`RelativeBoxes`] | `f64`, read as `f32` | as a `BoxSet<f32>`, and some microseconds a query; for coordinates that need `f64` |
-/// | [`BoxArrays`] | both | a quarter more than a set |
-/// | [`SphereArrays`] | both | fastest of spheres |
+/// | [`BoxArrays`], or a reference to it | both | a quarter more than a set |
+/// | [`SphereArrays`], or a reference | both | fastest of spheres |
 /// | slices, `Vec`s and arrays of [`Aabb`] or [`Sphere`] | both | slowest: components are gathered |
 ///
 /// In `f32` twice as many volumes share a register as in `f64`.
@@ -68,11 +68,13 @@ macro_rules! source {
 }
 
 source!(BoxArrays<'a, T> => Boxes);
+source!(&BoxArrays<'a, T> => Boxes);
 source!(&'a [Aabb<T>] => Boxes);
 source!(&'a [Aabb<T>; N] => Boxes, N);
 source!(&'a Vec<Aabb<T>> => Boxes);
 source!(&'a BoxSet<T> => Boxes);
 source!(SphereArrays<'a, T> => Spheres);
+source!(&SphereArrays<'a, T> => Spheres);
 source!(&'a [Sphere<T>] => Spheres);
 source!(&'a [Sphere<T>; N] => Spheres, N);
 source!(&'a Vec<Sphere<T>> => Spheres);

@@ -51,6 +51,12 @@ impl<'a, T> From<SphereArrays<'a, T>> for Spheres<'a, T> {
     }
 }
 
+impl<'a, T: Copy> From<&SphereArrays<'a, T>> for Spheres<'a, T> {
+    fn from(arrays: &SphereArrays<'a, T>) -> Self {
+        Spheres::Arrays(*arrays)
+    }
+}
+
 impl<'a, T> From<&'a [Sphere<T>]> for Spheres<'a, T> {
     fn from(spheres: &'a [Sphere<T>]) -> Self {
         Spheres::Slice(spheres)
