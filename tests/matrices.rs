@@ -279,6 +279,34 @@ fn each_invalid_matrix_has_its_own_error() {
     assert!(matches!(behind, E::FarBehindEye { .. }), "{behind:?}");
 }
 
+/// Rows given for columns, by cameras and parallel views in any place: called so, in every
+/// convention.
+#[test]
+fn a_transposed_matrix_is_called_so() {
+    let mut state = 88_172_645_463_325_252_u64;
+    let mut next = || {
+        state ^= state << 13;
+        state ^= state >> 7;
+        state ^= state << 17;
+        (state >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+    };
+    for i in 0..400 {
+        let clip = SPACES[i % 4];
+        let eye = [9.0 * next(), 9.0 * next(), 9.0 * next()];
+        let view = view([next(), next(), next(), 0.1 + next().abs()], eye);
+        let m = if i % 3 == 0 {
+            product(orthographic(clip, 4.0, 3.0, 1.0, 50.0), view)
+        } else {
+            product(perspective(clip, 0.8, 0.5, 0.0, 0.1, 100.0), view)
+        };
+        assert!(frustum(m, clip).is_ok());
+        let exchanged = std::array::from_fn(|i| std::array::from_fn(|j| m[j][i]));
+        let error = frustum(exchanged, clip).unwrap_err();
+        assert!(matches!(error, FrustumError::Transposed { .. }), "{error}");
+        assert!(error.to_string().starts_with("the matrix looks transposed"));
+    }
+}
+
 #[test]
 fn a_tilted_far_plane_is_reported() {
     // A tilt that f32 rounding could cause: 1e-6 of W, while the far plane depends on

@@ -134,6 +134,11 @@ pub enum FrustumError {
         /// The sine of the angle between the `Z` and the `W` row.
         sine: f64,
     },
+    /// The same, but those of the transposed matrix are: most likely the layout is another one.
+    Transposed {
+        /// The sine of the angle between the `Z` and the `W` row.
+        sine: f64,
+    },
     /// The near plane of the matrix is not in front of the eye. The cause is a
     /// wrong depth range or reversal, or a negated matrix.
     NoNearPlane {
@@ -272,6 +277,12 @@ impl fmt::Display for FrustumError {
             Self::TiltedDepth { sine } => write!(
                 f,
                 "the matrix's near and far planes are not parallel to its picture (sine {})",
+                Short(*sine)
+            ),
+            Self::Transposed { sine } => write!(
+                f,
+                "the matrix looks transposed (rows and columns exchanged): its near and far planes \
+                 are not parallel to its picture (sine {}), those of its transpose are",
                 Short(*sine)
             ),
             Self::NoNearPlane { w } => write!(

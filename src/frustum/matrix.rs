@@ -232,11 +232,42 @@ impl<T: Real> ViewProjection<T> {
     /// [`FrustumError::NonFinite`], which names the entry;
     /// [`FrustumError::SingularMatrix`]; [`FrustumError::NegativeW`];
     /// [`FrustumError::TiltedDepth`] for near and far planes that are not
-    /// parallel to the picture, by more than `64 u` (`u` of `T`);
+    /// parallel to the picture, by more than `64 u` (`u` of `T`), or
+    /// [`FrustumError::Transposed`] if those of the transposed matrix are;
     /// [`FrustumError::NoNearPlane`] and [`FrustumError::FarBehindEye`], mostly for a
     /// wrong [`ClipSpace`]; [`FrustumError::FarNotBeyondNear`];
     /// [`FrustumError::Overflow`].
     pub fn frustum(&self, clip: ClipSpace) -> Result<MatrixFrustum, FrustumError> {
+        let transposed = || Self {
+            rows: transposed(self.rows),
+        };
+        match self.frustum_as_it_stands(clip) {
+            Err(FrustumError::TiltedDepth { sine })
+                if !self.axes_are_square()
+                    && transposed().axes_are_square()
+                    && transposed().frustum_as_it_stands(clip).is_ok() =>
+            {
+                Err(FrustumError::Transposed { sine })
+            }
+            done => done,
+        }
+    }
+
+    /// Whether the picture's axes are at a right angle, as every camera's are; seen along the view
+    /// direction, to which an off-axis rectangle tilts them. A guess, for a message.
+    fn axes_are_square(&self) -> bool {
+        let [x, y, _, w] = self.rows.map(|[a, b, c, _]| Vec3::new(a, b, c).to_f64());
+        let across = |v: Vec3<f64>| {
+            let along = v.dot(w) / w.dot(w);
+            let along = if along.is_finite() { along } else { 0.0 };
+            Vec3::new(v.x - along * w.x, v.y - along * w.y, v.z - along * w.z)
+        };
+        let (x, y) = (across(x), across(y));
+        let cosine = x.dot(y) / (x.dot(x) * y.dot(y)).sqrt();
+        cosine.abs() < 1e-3
+    }
+
+    fn frustum_as_it_stands(&self, clip: ClipSpace) -> Result<MatrixFrustum, FrustumError> {
         let mut rows = [[0.0; 4]; 4];
         for (i, row) in self.rows.iter().enumerate() {
             for (j, entry) in row.iter().enumerate() {
