@@ -301,3 +301,31 @@ impl fmt::Display for FrustumError {
 }
 
 impl std::error::Error for FrustumError {}
+
+/// The names of a matrix's entries, in messages.
+pub(super) const MATRIX_ENTRIES: [[&str; 4]; 4] = [
+    [
+        "row 0, column 0",
+        "row 0, column 1",
+        "row 0, column 2",
+        "row 0, column 3",
+    ],
+    [
+        "row 1, column 0",
+        "row 1, column 1",
+        "row 1, column 2",
+        "row 1, column 3",
+    ],
+    [
+        "row 2, column 0",
+        "row 2, column 1",
+        "row 2, column 2",
+        "row 2, column 3",
+    ],
+    [
+        "row 3, column 0",
+        "row 3, column 1",
+        "row 3, column 2",
+        "row 3, column 3",
+    ],
+];

@@ -20,6 +20,7 @@
 //! looks right: see [`ClipSpace`] and [`MatrixLayout`]. Handedness needs no
 //! convention; the rows determine it.
 
+use super::error::MATRIX_ENTRIES;
 use super::eval::exact_vec::{Dyadic, Dyadic3, Rounded, cross, dot, exact, unit};
 use super::{Direction, EndRect, Frustum, FrustumError, Shape};
 use crate::math::{Pose, Real, Rect, Vec3};
@@ -272,7 +273,7 @@ impl<T: Real> ViewProjection<T> {
         for (i, row) in self.rows.iter().enumerate() {
             for (j, entry) in row.iter().enumerate() {
                 rows[i][j] = entry.to_f64();
-                FrustumError::check_finite(ENTRY_NAMES[i][j], rows[i][j])?;
+                FrustumError::check_finite(MATRIX_ENTRIES[i][j], rows[i][j])?;
             }
         }
         if clip.y == ClipY::Down {
@@ -297,33 +298,6 @@ impl<T: Real> ViewProjection<T> {
 fn transposed<T: Copy>(m: [[T; 4]; 4]) -> [[T; 4]; 4] {
     std::array::from_fn(|i| std::array::from_fn(|j| m[j][i]))
 }
-
-const ENTRY_NAMES: [[&str; 4]; 4] = [
-    [
-        "row 0, column 0",
-        "row 0, column 1",
-        "row 0, column 2",
-        "row 0, column 3",
-    ],
-    [
-        "row 1, column 0",
-        "row 1, column 1",
-        "row 1, column 2",
-        "row 1, column 3",
-    ],
-    [
-        "row 2, column 0",
-        "row 2, column 1",
-        "row 2, column 2",
-        "row 2, column 3",
-    ],
-    [
-        "row 3, column 0",
-        "row 3, column 1",
-        "row 3, column 2",
-        "row 3, column 3",
-    ],
-];
 
 /// Three rows as a system of equations, solved by Cramer's rule.
 struct System {
