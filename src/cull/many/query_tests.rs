@@ -134,7 +134,8 @@ fn check_sources<T: Real>(culler: &Culler) {
     let (min, max) = ([a, b, c], [d, e, f]);
     let arrays = BoxArrays { min, max };
     check(culler, arrays, &expected, "arrays of boxes");
-    check(culler, &arrays, &expected, "arrays by reference");
+    let by_reference = &arrays;
+    check(culler, by_reference, &expected, "arrays by reference");
 
     let spheres = spheres::<T>();
     let expected = one_by_one(culler, &spheres);
@@ -198,7 +199,8 @@ fn check_invalid<S: VolumeSource + Copy + Sync>(
         .iter()
         .map(|c| c.unwrap_or(Containment::Crossing))
         .collect();
-    let options: &[fn(VolumeQuery<'_, S>) -> VolumeQuery<'_, S>] = &[
+    type Options<'q, S> = fn(VolumeQuery<'q, S>) -> VolumeQuery<'q, S>;
+    let options: &[Options<'_, S>] = &[
         |query| query,
         #[cfg(feature = "parallel")]
         |query| query.parallel(),
