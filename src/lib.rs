@@ -161,7 +161,7 @@ pub use cull::{
 pub use frustum::{
     Camera, ClipSpace, ClipY, Corners, DepthRange, Deviation, Direction, EndRect, Face, FaceSet,
     FaceSetIter, FarCorners, Frustum, FrustumError, MatrixFrustum, MatrixLayout, Plane, Projection,
-    Shape, SixPoints, Trapezoid, TrapezoidEnd, ViewProjection,
+    Projector, Ray, Shape, SixPoints, Trapezoid, TrapezoidEnd, ViewProjection,
 };
 pub use math::{Axis, End, Interval, NonFinite, NonFiniteAt, Pose, Real, Rect, Segment, Vec3};
 

@@ -150,6 +150,13 @@ pub enum FrustumError {
         /// The clip `W` of the far plane.
         w: f64,
     },
+    /// The sides neither converge at one eye before near nor are parallel, so that no matrix
+    /// projects this frustum.
+    NoEye,
+    /// Near is at the eye (a pyramid), where no matrix has a depth.
+    NearAtEye,
+    /// Parallel sides without a far end: no matrix has a depth for them.
+    NoFarPlane,
 }
 
 impl FrustumError {
@@ -296,6 +303,13 @@ impl fmt::Display for FrustumError {
                 "the matrix's far plane is behind the eye (W = {}): wrong depth range or reversal?",
                 Short(*w)
             ),
+            Self::NoEye => f.write_str(
+                "the sides neither converge at one eye before near nor are parallel: no matrix projects them",
+            ),
+            Self::NearAtEye => f.write_str("near is at the eye: a matrix needs it before the eye"),
+            Self::NoFarPlane => {
+                f.write_str("a parallel projection without far has no matrix: give it a far distance")
+            }
         }
     }
 }

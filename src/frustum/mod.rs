@@ -50,6 +50,7 @@ pub(crate) mod eval;
 mod face;
 mod independent;
 mod matrix;
+mod project;
 mod shape;
 mod six_points;
 mod trapezoid;
@@ -63,6 +64,7 @@ pub use face::{Face, FaceSet, FaceSetIter};
 pub use matrix::{
     ClipSpace, ClipY, DepthRange, Deviation, MatrixFrustum, MatrixLayout, ViewProjection,
 };
+pub use project::{Projector, Ray};
 pub use shape::{Direction, EndRect, Shape};
 pub use six_points::SixPoints;
 pub use trapezoid::{Trapezoid, TrapezoidEnd};

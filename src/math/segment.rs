@@ -59,10 +59,10 @@ impl fmt::Display for NonFinite {
 
 impl std::error::Error for NonFinite {}
 
-/// A coordinate in a slice of segments is infinite or not a number.
+/// A coordinate in a slice of segments or points is infinite or not a number.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NonFiniteAt {
-    /// The segment's index in the slice.
+    /// The index of the segment or point in the slice.
     pub index: usize,
     /// The coordinate and its value.
     pub found: NonFinite,
@@ -70,7 +70,12 @@ pub struct NonFiniteAt {
 
 impl fmt::Display for NonFiniteAt {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "segment {}: {}", self.index, self.found)
+        let what = if self.found.end.is_some() {
+            "segment"
+        } else {
+            "point"
+        };
+        write!(f, "{what} {}: {}", self.index, self.found)
     }
 }
 

@@ -204,6 +204,12 @@ impl Filter {
         size.splat(self.depth.0) + size.splat(self.depth.1) * size
     }
 
+    /// The thresholds of the four sides, and of near and far, at a point of this size.
+    #[inline(always)]
+    pub(crate) fn thresholds(&self, size: f64) -> (f64, f64) {
+        (self.side_threshold(size), self.depth_threshold(size))
+    }
+
     /// The thresholds of depth and sides that certify crossing parameters. With
     /// the identity pose, near and far values are differences of two coordinates:
     /// their relative error is u, and only their reciprocals must be finite.
