@@ -131,21 +131,28 @@ impl Eye {
         }
     }
 
-    /// Two values in the ratio of a depth's distances from those of near and far, from the values of
-    /// near and far.
+    /// Two values in the ratio of a depth's distances from those of near and far, and their sum,
+    /// from the values of near and far and their sum `depth` (without far: any number).
     #[inline(always)]
-    pub(super) fn depths(self, [near, far]: [f64; 2]) -> [f64; 2] {
+    pub(super) fn depths(self, [near, far]: [f64; 2], depth: f64) -> ([f64; 2], f64) {
+        let is_between = near >= 0.0 && far >= 0.0;
         match self {
             Self::Central {
                 near: n,
                 far: Some(f),
             } => {
-                // Weights of magnitude 1, so that nothing overflows.
-                [near, far * (n / f)]
+                let ratio = n / f;
+                let (a, b) = (near, far * ratio);
+                // Far outside the sum of the two would cancel.
+                let sum = near * ((f - n) / f) + depth * ratio;
+                ([a, b], if is_between { a + b } else { sum })
             }
-            Self::Central { near: n, far: None } => [near, n],
-            Self::Parallel { is_finite: true } | Self::None { is_finite: true } => [near, far],
-            Self::Parallel { is_finite: false } | Self::None { is_finite: false } => [0.0, 1.0],
+            Self::Central { near: n, far: None } => ([near, n], near + n),
+            Self::Parallel { is_finite: true } | Self::None { is_finite: true } => {
+                let sum = if is_between { near + far } else { depth };
+                ([near, far], sum)
+            }
+            _ => ([0.0, 1.0], 1.0),
         }
     }
 

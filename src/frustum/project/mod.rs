@@ -23,8 +23,6 @@ mod eye;
 mod matrix;
 mod place;
 mod ray;
-#[cfg(test)]
-mod tests;
 
 use super::{ClipSpace, DepthRange, Frustum, FrustumError};
 use crate::math::{NonFinite, NonFiniteAt, Real, Rect, Vec3};
@@ -89,6 +87,8 @@ pub use ray::Ray;
 pub struct Projector {
     frustum: Frustum,
     eye: Eye,
+    /// The distance of far from near along the depth; 1 without far.
+    depth: f64,
     /// Coordinates in the window of the sides left, bottom and near.
     low: [f64; 3],
     /// Of right, top and far.
@@ -100,9 +100,12 @@ impl Projector {
     /// bottom to 1 at the top, depth from 0 at near to 1 at far.
     #[must_use]
     pub fn new(frustum: &Frustum) -> Self {
+        let shape = frustum.shape();
+        let near = shape.near().z;
         Self {
             frustum: frustum.clone(),
-            eye: Eye::of(frustum.shape()),
+            eye: Eye::of(shape),
+            depth: shape.far().map_or(1.0, |far| (far.z - near).abs()),
             low: [0.0; 3],
             high: [1.0; 3],
         }
@@ -174,7 +177,7 @@ impl Projector {
     }
 
     /// A point's coordinates in the window, and its depth; `None` if it is not in front of the
-    /// eye, or so close to the eye's plane that they are beyond the range of `T`.
+    /// eye (for points outside of the frustum: up to rounding), or so close to the eye's plane that they are beyond the range of `T`.
     ///
     /// # Errors
     /// A coordinate of the point is infinite or NaN.

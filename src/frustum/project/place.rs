@@ -2,9 +2,10 @@
 //!
 //! For each of the three pairs of faces with values a and b (see the
 //! [filter](crate::frustum::eval::filter)) the place is a / (a + b). Rounded values serve where they
-//! are certain of all signs, also of a + b: it is positive exactly in front of the eye. Otherwise a value
-//! is computed in double-double, and if that is 0 or close to it, exactly. Where the filter does not
-//! apply at all, the quotients are formed from exact values, too.
+//! are certain of both signs. Otherwise a value is computed in double-double, and if that is 0 or close to
+//! it, exactly. Where the filter does not apply at all, the quotients are formed from exact values, too.
+//! a + b, the distance between the faces, is positive in front of the eye. For a point of the
+//! frustum that is certain; outside of it, within rounding of the eye's plane, its sign is not.
 //!
 //! # Error
 //! A rounded value errs by e = 9.2 u s at most, s the filter's scale. For A, B >= 0,
@@ -48,29 +49,27 @@ impl Projector {
             Shape::Infinite { .. } => filter.values_at::<General<false>, f64>(p),
         };
         let pairs = [[left, right], [bottom, top], [near, far]];
-        let is_certain = |[a, b]: Pair, threshold: f64| {
-            a.abs() > threshold && b.abs() > threshold && (a + b).abs() > threshold
-        };
+        let is_certain = |[a, b]: Pair, threshold: f64| a.abs() > threshold && b.abs() > threshold;
         let (across, along) = filter.thresholds(size);
-        let pairs = if is_certain(pairs[0], across)
+        if is_certain(pairs[0], across)
             && is_certain(pairs[1], across)
             && is_certain(pairs[2], along)
             && filter.covers(size)
         {
-            pairs
+            self.image_of(pairs, self.depth)
         } else {
-            self.close_to_a_face(p, pairs, size)?
-        };
-        self.image_of(pairs)
+            self.image_close_to_a_face(p, pairs, size)
+        }
     }
 
-    /// The image of a point with these values.
+    /// The image of a point with these values, those of near and far with this sum.
     #[inline(always)]
-    fn image_of(&self, mut pairs: [Pair; 3]) -> Option<Vec3<f64>> {
-        pairs[2] = self.eye.depths(pairs[2]);
+    fn image_of(&self, [x, y, z]: [Pair; 3], depth: f64) -> Option<Vec3<f64>> {
+        let (z, depth) = self.eye.depths(z, depth);
         let mut image = [0.0; 3];
-        for (axis, [a, b]) in pairs.into_iter().enumerate() {
-            let sum = a + b;
+        let values = [(x, x[0] + x[1]), (y, y[0] + y[1]), (z, depth)];
+        for (axis, ([a, b], sum)) in values.into_iter().enumerate() {
+            // Written so that NaN fails.
             if !(sum > 0.0) {
                 return None;
             }
@@ -86,13 +85,18 @@ impl Projector {
         image.is_finite().then_some(image)
     }
 
-    /// As [`Projector::image`]'s values, where rounded ones are not certain of all signs.
+    /// As [`Projector::image`], where rounded values are not certain of all signs.
     #[cold]
     #[inline(never)]
-    fn close_to_a_face(&self, p: Vec3<f64>, rounded: [Pair; 3], size: f64) -> Option<[Pair; 3]> {
+    fn image_close_to_a_face(
+        &self,
+        p: Vec3<f64>,
+        rounded: [Pair; 3],
+        size: f64,
+    ) -> Option<Vec3<f64>> {
         let filter = self.frustum.filter();
         if !filter.covers(size) {
-            return exact_places(&self.frustum, p);
+            return self.image_of(exact_places(&self.frustum, p)?, 1.0);
         }
         let mut pairs = rounded;
         let (across, along) = filter.thresholds(size);
@@ -107,16 +111,8 @@ impl Projector {
                     *value = value_close_to(&self.frustum, face, p, threshold);
                 }
             }
-            // In front of the eye?
-            let [a, b] = *pair;
-            if a.min(b) < 0.0
-                && (a + b).abs() <= threshold
-                && sign_of_sum(&self.frustum, faces, p) != Ordering::Greater
-            {
-                return None;
-            }
         }
-        Some(pairs)
+        self.image_of(pairs, self.depth)
     }
 }
 
@@ -171,11 +167,6 @@ fn unit_of(shape: &Shape, face: Face) -> Dyadic {
 fn exact_pair(frustum: &Frustum, [low, high]: [Face; 2], p: Vec3<f64>) -> [Dyadic; 2] {
     let [(a, a_unit), (b, b_unit)] = [low, high].map(|face| exact_value(frustum, face, p));
     [&a * &b_unit, &b * &a_unit]
-}
-
-fn sign_of_sum(frustum: &Frustum, faces: [Face; 2], p: Vec3<f64>) -> Ordering {
-    let [a, b] = exact_pair(frustum, faces, p);
-    (&a + &b).sign()
 }
 
 /// The places of a point by exact values, as values whose sum is 1. (For near and far of an infinite

@@ -108,7 +108,9 @@ impl Projector {
     pub fn point(&self, x: f64, y: f64, depth: f64) -> Option<Vec3<f64>> {
         let weights = self.weights(x, y)?;
         let shape = self.frustum.shape();
-        let [low, high] = self.eye.distances(self.place_of(2, depth)?.into());
+        // The weight of the far depth is the distance from near.
+        let [of_near, of_far] = self.place_of(2, depth)?;
+        let [low, high] = self.eye.distances([of_far, of_near]);
         let near = shape.near();
         let [x0, y0] = weights.between(near.rect.to_array());
         let in_frame = match shape {
