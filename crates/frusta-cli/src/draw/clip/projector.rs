@@ -6,7 +6,7 @@
 //! sheared frustum) they are drawn as short pieces.
 
 use super::density::LIGHTEST;
-use frusta::{Direction, Frustum, Pose, Shape, Vec3};
+use frusta::{Direction, Frustum, Rect, Shape, Vec3};
 
 /// A picture is drawn at most this many times longer than wide.
 const MOST_OBLONG: f64 = 8.0;
@@ -19,14 +19,11 @@ pub(super) type Place = [f32; 2];
 /// The projection of a frustum on a rectangle of pixels.
 #[derive(Clone, Debug)]
 pub(super) struct Projector {
-    pose: Pose,
-    /// Left, right, bottom, top at the near end, and their change per unit of
-    /// `s`, the scaled depth.
-    near: [f64; 4],
-    change: [f64; 4],
-    z: f64,
-    s_per_z: f64,
-    mirrored: bool,
+    screen: frusta::Projector,
+    /// The frame's depth axis and its offset, so that near is at 0, far at 1.
+    depth: (Vec3<f64>, f64),
+    /// Width at near, and its change to far.
+    widths: [f64; 2],
     pieces: u32,
     size: [f64; 2],
 }
@@ -59,17 +56,23 @@ impl Projector {
         let ratio = (right / a.dot(a).sqrt()) / (up / b.dot(b).sqrt());
         let ratio = if ratio > 0.0 { ratio } else { 1.0 };
         let ratio = ratio.clamp(1.0 / MOST_OBLONG, MOST_OBLONG);
+        let size = [longer * ratio.min(1.0), longer / ratio.max(1.0)].map(|s| s.round().max(1.0));
+        let [width, height] = size;
         let left_handed = a.dot(b.cross(c)) < 0.0;
+        // Seen along +z, a right-handed frame has x to the left.
+        let window = if left_handed == (shape.direction() == Direction::PlusZ) {
+            Rect::new(0.0, width, height, 0.0)
+        } else {
+            Rect::new(width, 0.0, height, 0.0)
+        };
+        let screen = frusta::Projector::new(frustum).onto(window);
+        let along = c * s_per_z;
         Self {
-            pose,
-            near,
-            change,
-            z: shape.near().z,
-            s_per_z,
-            // Seen along +z, a right-handed frame has x to the left.
-            mirrored: left_handed != (shape.direction() == Direction::PlusZ),
+            screen: screen.expect("whole pixels"),
+            depth: (along, -along.dot(pose.origin) - shape.near().z * s_per_z),
+            widths: [w, dw],
             pieces: if straight { 1 } else { PIECES },
-            size: [longer * ratio.min(1.0), longer / ratio.max(1.0)].map(|s| s.round().max(1.0)),
+            size,
         }
     }
 
@@ -80,24 +83,19 @@ impl Projector {
 
     /// A point's place; always within the rectangle.
     pub(super) fn place(&self, point: Vec3<f64>) -> Place {
-        self.place_and_depth(point).0
+        let [w, h] = self.size;
+        // At an apex, where the sides meet, any place is right.
+        let image = self.screen.project(point).ok().flatten();
+        let place = image.map_or([0.5 * w, 0.5 * h], |p| {
+            [p.x.clamp(0.0, w), p.y.clamp(0.0, h)]
+        });
+        place.map(|x| x as f32)
     }
 
     /// A point's place and its scaled depth.
     #[inline]
     fn place_and_depth(&self, point: Vec3<f64>) -> (Place, f64) {
-        let q = self.pose.to_frame(point);
-        let s = (q.z - self.z) * self.s_per_z;
-        let between = |value: f64, low: usize| {
-            let bound = |i: usize| self.near[i] + s * self.change[i];
-            let at = (value - bound(low)) / (bound(low + 1) - bound(low));
-            // At an apex, where the sides meet, any place is right.
-            if at.is_nan() { 0.5 } else { at.clamp(0.0, 1.0) }
-        };
-        let (u, v) = (between(q.x, 0), between(q.y, 2));
-        let u = if self.mirrored { 1.0 - u } else { u };
-        let place = [(u * self.size[0]) as f32, ((1.0 - v) * self.size[1]) as f32];
-        (place, s)
+        (self.place(point), self.depth.0.dot(point) + self.depth.1)
     }
 
     /// The weight of a stroke at a scaled depth: the farther, the less. With
@@ -105,7 +103,7 @@ impl Projector {
     /// power more of them share a pixel.
     #[inline]
     fn weight(&self, s: f64) -> f32 {
-        let (width, change) = (self.near[1] - self.near[0], self.change[1] - self.change[0]);
+        let [width, change] = self.widths;
         // In a parallel projection the far end is as if five times as far.
         let distance = if change == 0.0 {
             1.0 + 4.0 * s
