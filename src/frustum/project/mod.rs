@@ -89,10 +89,9 @@ pub struct Projector {
     eye: Eye,
     /// The distance of far from near along the depth; 1 without far.
     depth: f64,
-    /// Coordinates in the window of the sides left, bottom and near.
-    low: [f64; 3],
-    /// Of right, top and far.
-    high: [f64; 3],
+    /// For each coordinate of an image the two sides, low and high: the coordinate there, and the
+    /// difference to the other side's.
+    sides: [[(f64, f64); 2]; 3],
 }
 
 impl Projector {
@@ -106,18 +105,21 @@ impl Projector {
             frustum: frustum.clone(),
             eye: Eye::of(shape),
             depth: shape.far().map_or(1.0, |far| (far.z - near).abs()),
-            low: [0.0; 3],
-            high: [1.0; 3],
+            sides: [[(0.0, 1.0), (1.0, -1.0)]; 3],
         }
+    }
+
+    fn with_side(mut self, axis: usize, (low, high): (f64, f64)) -> Self {
+        self.sides[axis] = [(low + 0.0, high - low), (high + 0.0, low - high)];
+        self
     }
 
     /// The projection to pixels: `x` from 0 at the left side to `width` at the right, `y` from 0
     /// at the top to `height` at the bottom.
     #[must_use]
-    pub fn pixels(mut self, width: u32, height: u32) -> Self {
-        (self.low[0], self.high[0]) = (0.0, f64::from(width));
-        (self.low[1], self.high[1]) = (f64::from(height), 0.0);
-        self
+    pub fn pixels(self, width: u32, height: u32) -> Self {
+        self.with_side(0, (0.0, width.into()))
+            .with_side(1, (height.into(), 0.0))
     }
 
     /// The projection to a rectangle, whose `left`, `right`, `bottom` and `top` are the
@@ -157,7 +159,7 @@ impl Projector {
             if !(high - low).is_finite() {
                 return Err(FrustumError::Overflow { what });
             }
-            (self.low[axis], self.high[axis]) = (low, high);
+            self = self.with_side(axis, (low, high));
         }
         Ok(self)
     }
@@ -165,9 +167,8 @@ impl Projector {
     /// The depth of another clip space: its range, and whether near has the largest depth. (The
     /// direction of its `Y` does not matter.)
     #[must_use]
-    pub fn depth(mut self, clip: ClipSpace) -> Self {
-        (self.low[2], self.high[2]) = clip.depths();
-        self
+    pub fn depth(self, clip: ClipSpace) -> Self {
+        self.with_side(2, clip.depths())
     }
 
     /// The frustum.
@@ -187,7 +188,9 @@ impl Projector {
         point: impl Into<Vec3<T>>,
     ) -> Result<Option<Vec3<T>>, NonFinite> {
         let point = point.into();
-        NonFinite::check(None, point)?;
+        if !point.is_finite() {
+            NonFinite::check(None, point)?;
+        }
         Ok(self.image(point.to_f64()).and_then(narrowed))
     }
 

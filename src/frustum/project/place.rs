@@ -12,10 +12,10 @@
 //! ```text
 //! |(A + e1) / (A + B + e1 + e2) - A / (A + B)| = |e1 B - e2 A| / ((A + B) (A + B + e1 + e2)) <= e / (a + b)
 //! ```
-//! The sum and the quotient add 2 u, the two products with the window's sides and their sum 3 u of
-//! the greater side. Rounding is monotonic: a, b >= 0 give quotients in 0..=1. Two products of such
-//! quotients can leave the window by their rounding; so the result is clamped there. With a = 0 or b = 0
-//! the quotients are 0 and 1, and the image is on the window's side.
+//! The sum and the quotient add 2 u of a quotient of at most 1/2, the window's extent, the product and the
+//! last sum 2 u of the extent and u of the greater side. The quotient is taken from the nearer side: it is 0 on
+//! the side, and otherwise an image between the sides stays there, because half of the extent
+//! is far less than what is left.
 
 use super::Projector;
 use crate::exact::Number;
@@ -66,21 +66,19 @@ impl Projector {
     #[inline(always)]
     fn image_of(&self, [x, y, z]: [Pair; 3], depth: f64) -> Option<Vec3<f64>> {
         let (z, depth) = self.eye.depths(z, depth);
-        let mut image = [0.0; 3];
         let values = [(x, x[0] + x[1]), (y, y[0] + y[1]), (z, depth)];
-        for (axis, ([a, b], sum)) in values.into_iter().enumerate() {
-            // Written so that NaN fails.
-            if !(sum > 0.0) {
-                return None;
-            }
-            let (low, high) = (self.low[axis], self.high[axis]);
-            let at = high * (a / sum) + low * (b / sum);
-            image[axis] = if a >= 0.0 && b >= 0.0 {
-                at.clamp(low.min(high), low.max(high))
-            } else {
-                at
-            };
+        // Written so that NaN fails.
+        if !values.iter().all(|&(_, sum)| sum > 0.0) {
+            return None;
         }
+        let image = std::array::from_fn(|axis| {
+            let ([a, b], sum) = values[axis];
+            // From the nearer side, so that both ends are exact; looked up, because a branch on it
+            // would be mispredicted half of the time.
+            let side = usize::from(b < a);
+            let (from, extent) = self.sides[axis][side];
+            from + extent * ([a, b][side] / sum)
+        });
         let image = Vec3::from(image);
         image.is_finite().then_some(image)
     }

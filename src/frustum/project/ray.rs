@@ -149,8 +149,7 @@ impl Projector {
 
     /// A coordinate's place between the window's sides, as their weights; `None` if it is not finite.
     fn place_of(&self, axis: usize, value: f64) -> Option<[f64; 2]> {
-        let (low, high) = (self.low[axis], self.high[axis]);
-        let width = high - low;
+        let [(low, width), (high, _)] = self.sides[axis];
         let weights = [(high - value) / width, (value - low) / width];
         weights.iter().all(|w| w.is_finite()).then_some(weights)
     }
