@@ -136,6 +136,7 @@
     )
 )]
 #![cfg_attr(docsrs, feature(doc_cfg))]
+#![cfg_attr(not(feature = "bytemuck"), forbid(unsafe_code))]
 
 pub mod clip;
 pub mod cull;

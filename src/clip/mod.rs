@@ -5,9 +5,9 @@
 //! |---|---|---|
 //! | one segment | class, points, parameters, face sets | [`Frustum::clip_segment`] |
 //! | one segment | the same, with a choice of [`Accuracy`] | [`Frustum::clip_segment_with`] |
-//! | a slice | the same for each segment, faster than one by one | [`Frustum::clip_segments`] |
-//! | a slice or arrays | class and parameters only, fastest | [`Culler::clip_intervals`] |
-//! | any of the first three | by a chosen algorithm | [`SegmentClipper`] |
+//! | many: a slice, arrays, [`IndexedEdges`] | the same for each segment, faster than one by one | [`Frustum::clip_segments`] |
+//! | many | class and parameters only, fastest | [`Frustum::clip_intervals`], [`Culler::clip_intervals`] |
+//! | one segment or a slice | by a chosen algorithm | [`SegmentClipper`] |
 //!
 //! All but the last decide exactly, and give the same bits for the same segment.
 //! [`SegmentClipper`] is for comparing algorithms, in exact or in plain arithmetic: in exact
@@ -52,13 +52,15 @@ mod whole;
 pub use cohen_sutherland::CohenSutherland;
 pub use cyrus_beck::CyrusBeck;
 pub use liang_barsky::{LiangBarsky, LiangBarskyVariant};
-pub use many::intervals::{SegmentArrays, SegmentIntervals, Segments};
+pub use many::intervals::SegmentIntervals;
+pub use many::segments::{IndexError, IndexedEdges, SegmentArrays, Segments};
 pub use result::{Accuracy, Arithmetic, Class, Part, PartEnd, SegmentClip, StageCounts};
 pub use six_planes::SixPlanes;
 pub use vw::VwProjection;
 
 use crate::frustum::Frustum;
 use crate::math::{NonFinite, NonFiniteAt, Real, Segment};
+use crate::simd::Level;
 
 /// An algorithm that clips segments by frusta.
 ///
@@ -230,9 +232,14 @@ impl Frustum {
         self.clip_segment_counted(segment, accuracy, &mut StageCounts::default())
     }
 
-    /// The parts of a slice of segments: `clips` is cleared, then gets one clip for each
+    /// The parts of many segments: `clips` is cleared, then gets one clip for each
     /// segment, in order, with the same bits as from [`Frustum::clip_segment_with`], in
-    /// less time.
+    /// less time. Segments are a slice, arrays of coordinates or [`IndexedEdges`].
+    ///
+    /// A `clips` that is large enough is not allocated again. The first call with a large one costs more than the
+    /// clipping: the system has to provide its pages, 104 bytes a segment in `f64`. Where only a
+    /// few clips are of interest at a time, pieces of some thousand segments and one small `clips` avoid that, and stay in the
+    /// processor's caches.
     ///
     /// ```
     /// use frusta::{Accuracy, Class, EndRect, Frustum, Pose, Segment, Shape};
@@ -252,13 +259,14 @@ impl Frustum {
     ///
     /// # Errors
     /// A coordinate of a segment is infinite or NaN; `clips` is empty then.
-    pub fn clip_segments<T: Real>(
+    pub fn clip_segments<'a, T: Real>(
         &self,
-        segments: &[Segment<T>],
+        segments: impl Into<Segments<'a, T>>,
         accuracy: Accuracy,
         clips: &mut Vec<SegmentClip<T>>,
     ) -> Result<(), NonFiniteAt> {
-        VwProjection::exact(accuracy).clip_segments(self, segments, clips)
+        let (level, counts) = (Level::new(), &mut StageCounts::default());
+        many::clip_exact(level, self, segments.into(), accuracy, clips, counts)
     }
 
     /// As [`Frustum::clip_segment_with`], and adds to `counts` which stages of

@@ -99,6 +99,7 @@ impl<T: Real> SegmentClipper<T> for VwProjection {
         match self.arithmetic {
             Arithmetic::Plain => many::clip_plain(level, frustum, segments, clips),
             Arithmetic::Exact(accuracy) => {
+                let segments = segments.into();
                 many::clip_exact(level, frustum, segments, accuracy, clips, counts)
             }
         }

@@ -2,10 +2,12 @@
 
 #[cfg(feature = "parallel")]
 use super::many::parallel::{PIECE, by_all, piece_range};
-use crate::clip::many::intervals::{self, SegmentIntervals, Segments};
+use crate::clip::many::intervals::{self, SegmentIntervals};
 #[cfg(feature = "parallel")]
 use crate::clip::many::intervals::{Out, Uncertain};
+use crate::clip::many::segments::Segments;
 use crate::cull::Culler;
+use crate::frustum::Frustum;
 use crate::math::{NonFiniteAt, Real};
 use crate::simd::Level;
 
@@ -43,6 +45,33 @@ impl Culler {
     ) -> Result<(), NonFiniteAt> {
         let (frustum, planes) = (self.frustum(), self.face_planes());
         intervals::clip(Level::new(), frustum, planes, &segments.into(), intervals)
+    }
+}
+
+impl Frustum {
+    /// As [`Culler::clip_intervals`], for one call with a frustum: makes a [`Culler`] first.
+    ///
+    /// ```
+    /// use frusta::clip::SegmentIntervals;
+    /// use frusta::{Class, EndRect, Frustum, Pose, Segment, Shape};
+    /// # let near = EndRect::new(1.0, -1.0, 1.0, -1.0, 1.0);
+    /// # let far = EndRect::new(3.0, -3.0, 3.0, -3.0, 3.0);
+    /// # let frustum = Frustum::new(Pose::IDENTITY, Shape::Finite { near, far })?;
+    /// let segments = [Segment::new([0.0_f32, 0.0, 2.0], [4.0, 0.0, 2.0])];
+    /// let mut intervals = SegmentIntervals::default();
+    /// frustum.clip_intervals(&segments, &mut intervals)?;
+    /// assert_eq!(intervals.get(0), Some((Class::Cross, 0.0, 0.5)));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Those of [`Culler::clip_intervals`].
+    pub fn clip_intervals<'a, T: Real>(
+        &self,
+        segments: impl Into<Segments<'a, T>>,
+        intervals: &mut SegmentIntervals<T>,
+    ) -> Result<(), NonFiniteAt> {
+        Culler::new(self).clip_intervals(segments, intervals)
     }
 }
 

@@ -6,6 +6,7 @@ use std::fmt;
 /// An axis-aligned box: the points `p` with `min <= p <= max` in every coordinate.
 ///
 /// A box may be flat, an edge or a point, but not empty.
+#[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(
@@ -26,6 +27,7 @@ pub struct Aabb<T> {
 /// and `u, v, n` the half axes.
 ///
 /// Half axes may have any lengths and angles between them, and may be zero.
+#[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(
@@ -45,6 +47,7 @@ pub struct Obb<T> {
 /// A solid sphere: the points no farther than `radius` from `center`.
 ///
 /// A sphere of radius 0 is a point.
+#[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(

@@ -14,7 +14,7 @@
 
 use super::eval::exact_vec::{cross, difference, exact, unit};
 use super::{Direction, EndRect, Frustum, FrustumError, Shape};
-use crate::math::{Pose, Rect, Vec3};
+use crate::math::{Pose, Real, Rect, Vec3};
 use std::f64::consts::PI;
 
 /// A camera, given by its eye, its target and its projection.
@@ -94,6 +94,37 @@ pub enum Projection {
 }
 
 impl Camera {
+    /// Creates a camera from points of either type, `f32` or `f64`: arrays, or other libraries' (with their features).
+    ///
+    /// ```
+    /// use frusta::{Camera, Projection};
+    ///
+    /// let (eye, ahead): ([f32; 3], [f32; 3]) = ([0.0, 1.7, 10.0], [0.0, 1.7, 9.0]);
+    /// let projection = Projection::Perspective { fovy: 1.0, aspect: 1.5 };
+    /// let camera = Camera::new(eye, ahead, [0.0, 1.0, 0.0], projection, 0.1, f64::INFINITY);
+    /// assert_eq!(camera.eye.y, f64::from(1.7_f32));
+    /// assert!(camera.frustum()?.contains([0.0_f32, 1.0, -1e6]).unwrap());
+    /// # Ok::<(), frusta::FrustumError>(())
+    /// ```
+    #[must_use]
+    pub fn new<T: Real>(
+        eye: impl Into<Vec3<T>>,
+        target: impl Into<Vec3<T>>,
+        up: impl Into<Vec3<T>>,
+        projection: Projection,
+        near: f64,
+        far: f64,
+    ) -> Self {
+        Self {
+            eye: eye.into().to_f64(),
+            target: target.into().to_f64(),
+            up: up.into().to_f64(),
+            projection,
+            near,
+            far,
+        }
+    }
+
     /// The frustum that the camera sees.
     ///
     /// Error: `near`, `far` and the rectangle of a rectangle projection are

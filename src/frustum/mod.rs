@@ -10,7 +10,20 @@
 //! | a view-projection matrix | [`ViewProjection::frustum`] |
 //! | two rectangles, in any frame | [`Frustum::new`] |
 //! | six points, as in "View Frustum Culling Geometric Algorithm" (the paper of projection reduction) | [`SixPoints::frustum`] |
-//! | another frustum, for a pick box, a tile or one eye of a stereo pair | [`Frustum::window`], [`Frustum::tile`], [`Frustum::stereo_eye`] |
+//! | another frustum, for a pick box, a tile or one eye of a stereo pair | [`Frustum::window`], [`Projector::window`] (pixels), [`Frustum::tile`], [`Frustum::stereo_eye`] |
+//!
+//! And back: [`Frustum::view_projection`] gives a matrix of any convention, [`Projector`] takes points to pixels and
+//! pixels to rays.
+//!
+//! A frustum has six faces in pairs, or five: left and right, bottom and top, near and far, of which near and far are
+//! parallel. That is what the method rests on, so other convex sets have no form here:
+//!
+//! | wanted | way |
+//! |---|---|
+//! | a rectangle of the picture, a portal's bounds | [`Frustum::window`], [`Projector::window`] |
+//! | a portal of any outline | the frustum of its bounds, which rejects nothing that is seen; then what remains by the outline |
+//! | an oblique near plane (mirrors, water) | the frustum of the matrix before it was made oblique; then what is left by that plane. The oblique matrix itself is [`FrustumError::TiltedDepth`] |
+//! | six planes of any direction | their matrix, if they come from one; else as above |
 //!
 //! If both a camera and a matrix are available, prefer the [`Camera`]: it keeps the near and far
 //! distances as given, while the entries of a matrix have been rounded already. The constructors

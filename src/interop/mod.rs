@@ -7,6 +7,12 @@
 
 #[cfg(feature = "approx")]
 mod approx;
+#[cfg(feature = "bytemuck")]
+#[allow(
+    unsafe_code,
+    reason = "promises about layouts, for a feature that is off by default"
+)]
+mod bytemuck;
 #[cfg(any(
     feature = "glam",
     feature = "glam027",

@@ -15,6 +15,7 @@ pub enum End {
 /// The closed segment of the points `start + t (end - start)`, `0 <= t <= 1`.
 ///
 /// Both ends may be the same point.
+#[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(

@@ -28,6 +28,7 @@ impl fmt::Display for Axis {
 }
 
 /// A point or a direction in space.
+#[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(from = "[T; 3]", into = "[T; 3]"))]

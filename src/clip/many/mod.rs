@@ -56,6 +56,7 @@ mod plain;
 mod points;
 #[cfg(simd)]
 mod queue;
+pub(crate) mod segments;
 
 use super::result::{Accuracy, SegmentClip, StageCounts};
 use crate::frustum::{Frustum, PlainFrustum};
@@ -64,6 +65,7 @@ use crate::simd::Level;
 use kernels::{BLOCK, Queues};
 #[cfg(not(simd))]
 use one as kernels;
+use segments::Segments;
 
 /// Segments of a block, and the places of their clips: as many, all outside.
 struct Block<'a, T> {
@@ -91,7 +93,7 @@ impl<T: Real> Block<'_, T> {
 pub(crate) fn clip_exact<T: Real>(
     level: Level,
     frustum: &Frustum,
-    segments: &[Segment<T>],
+    segments: Segments<'_, T>,
     accuracy: Accuracy,
     clips: &mut Vec<SegmentClip<T>>,
     counts: &mut StageCounts,
@@ -112,7 +114,7 @@ pub(crate) fn clip_plain<T: Real>(
 ) -> Result<(), NonFiniteAt> {
     let mut queues = Queues::new();
     let (kernels, plain) = (T::pick(&Both), frustum.plain());
-    in_blocks(frustum, segments, clips, |block| {
+    in_blocks(frustum, segments.into(), clips, |block| {
         (kernels.plain)(level, block, plain, &mut queues)
     })
 }
@@ -153,13 +155,13 @@ impl PerReal for Both {
 
 fn in_blocks<T: Real>(
     frustum: &Frustum,
-    segments: &[Segment<T>],
+    segments: Segments<'_, T>,
     clips: &mut Vec<SegmentClip<T>>,
     mut clip: impl FnMut(Block<'_, T>) -> Result<(), NonFiniteAt>,
 ) -> Result<(), NonFiniteAt> {
     clips.clear();
     clips.reserve(segments.len());
-    for segments in segments.chunks(BLOCK) {
+    let mut clip_next = |segments: &[Segment<T>]| {
         let done = clips.len();
         clips.extend(segments.iter().map(|_| super::whole::outside()));
         let block = Block {
@@ -167,11 +169,22 @@ fn in_blocks<T: Real>(
             segments,
             clips: &mut clips[done..],
         };
-        if let Err(mut error) = clip(block) {
-            clips.clear();
+        clip(block).map_err(|mut error| {
             error.index += done;
-            return Err(error);
+            clips.clear();
+            error
+        })
+    };
+    if let Segments::Slice(segments) = segments {
+        return segments.chunks(BLOCK).try_for_each(clip_next);
+    }
+    let mut gathered = [Segment::default(); BLOCK];
+    for start in (0..segments.len()).step_by(BLOCK) {
+        let count = BLOCK.min(segments.len() - start);
+        for (i, to) in gathered[..count].iter_mut().enumerate() {
+            *to = segments.get(start + i).unwrap_or_default();
         }
+        clip_next(&gathered[..count])?;
     }
     Ok(())
 }

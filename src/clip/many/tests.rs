@@ -51,7 +51,7 @@ fn compare<T: Real>(
 
 fn compare_exact<T: Real>(family: Family, level: Level, accuracy: Accuracy, blocks: u64) {
     let clip = |f: &Frustum, s: &[Segment<T>], c: &mut Vec<_>, counts: &mut StageCounts| {
-        clip_exact(level, f, s, accuracy, c, counts).expect("finite");
+        clip_exact(level, f, s.into(), accuracy, c, counts).expect("finite");
     };
     compare(family, clip, &VwProjection::exact(accuracy), blocks);
 }
@@ -116,7 +116,7 @@ fn segments_of_zero_length_are_counted_once() {
             clip_exact(
                 level,
                 &frustum,
-                some,
+                some.into(),
                 Accuracy::Fast,
                 &mut clips,
                 &mut counts,

@@ -2,8 +2,8 @@
 
 use super::Projector;
 use super::eye::Eye;
-use crate::frustum::Shape;
-use crate::math::{Pose, Vec3};
+use crate::frustum::{Frustum, FrustumError, Shape};
+use crate::math::{Pose, Rect, Vec3};
 
 /// A ray in the world: the points `origin + t direction`, `t >= 0`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -86,6 +86,35 @@ impl Projector {
             direction: Pose::new(Vec3::default(), pose.axes).to_world(along),
         };
         (ray.origin.is_finite() && ray.direction.is_finite()).then_some(ray)
+    }
+
+    /// The part of the frustum that is seen through a rectangle of the window, such as a rubber band: two
+    /// opposite corners in the window's coordinates, in any order.
+    ///
+    /// Rectangles that share a border share a side, bit for bit; the window's own borders give the frustum's own
+    /// sides. Each bound is within 3 u of the frustum's width of the exact one (see [`Frustum::window`], which takes fractions).
+    ///
+    /// ```
+    /// # use frusta::{EndRect, Frustum, Pose, Projector, Rect, Shape};
+    /// # let near = EndRect::new(1.0, -1.0, 1.0, -1.0, 1.0);
+    /// # let far = EndRect::new(3.0, -3.0, 3.0, -3.0, 3.0);
+    /// # let frustum = Frustum::new(Pose::IDENTITY, Shape::Finite { near, far })?;
+    /// let screen = Projector::new(&frustum).pixels(640, 480);
+    /// let band = screen.window([480.0, 240.0], [320.0, 120.0])?;
+    /// assert_eq!(band.shape().near().rect, Rect::new(0.0, 0.5, 0.0, 0.5));
+    /// # Ok::<(), frusta::FrustumError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Those of [`Frustum::window`].
+    pub fn window(&self, corner: [f64; 2], opposite: [f64; 2]) -> Result<Frustum, FrustumError> {
+        let [x, y] = [0, 1].map(|axis| {
+            let [(low, width), _] = self.sides[axis];
+            let [a, b] = [corner, opposite].map(|point| (point[axis] - low) / width);
+            // NaN stays, as `window` says which bound has it.
+            if a > b { [b, a] } else { [a, b] }
+        });
+        self.frustum.window(Rect::new(x[0], x[1], y[0], y[1]))
     }
 
     /// The point that is seen at a place of the window with a depth, as read from a depth buffer;

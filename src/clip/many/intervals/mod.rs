@@ -34,7 +34,6 @@ mod output;
 mod parameters;
 #[cfg(simd)]
 mod run;
-mod segments;
 #[cfg(simd)]
 mod triage;
 #[cfg(simd)]
@@ -46,8 +45,8 @@ pub(crate) use output::Out;
 pub use output::SegmentIntervals;
 #[cfg(feature = "parallel")]
 pub(crate) use output::Uncertain;
-pub use segments::{SegmentArrays, Segments};
 
+use super::segments::Segments;
 use crate::frustum::Frustum;
 use crate::frustum::eval::planes::{FacePlanes, FacePlanesPair};
 use crate::math::{NonFiniteAt, PerReal, Real};

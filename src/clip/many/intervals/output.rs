@@ -183,7 +183,8 @@ impl<T: Real> Out<'_, T> {
             return Ok(());
         }
         let counts = &mut StageCounts::default();
-        many::clip_exact(level, frustum, segments, Accuracy::Fast, clips, counts).map_err(
+        let source = (&*segments).into();
+        many::clip_exact(level, frustum, source, Accuracy::Fast, clips, counts).map_err(
             |error| NonFiniteAt {
                 index: indices[error.index],
                 ..error
