@@ -149,6 +149,34 @@ fn mint() {
     assert_eq!(ColumnMatrix4::from(ours).x.y, 4.0);
 }
 
+#[cfg(feature = "bytemuck")]
+#[test]
+fn bytemuck() {
+    use ::bytemuck::{Zeroable, cast_slice, cast_slice_mut, checked};
+    use frusta::{Aabb, Obb, Sphere};
+
+    // Six numbers a box, as an engine might store them, and back.
+    let numbers = [
+        0.0_f32, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0, 10.0, 11.0,
+    ];
+    let boxes: &[Aabb<f32>] = cast_slice(&numbers);
+    assert_eq!(boxes[1], Aabb::new([6.0, 7.0, 8.0], [9.0, 10.0, 11.0]));
+    assert_eq!(cast_slice::<_, f32>(boxes), numbers);
+    let spheres: &[Sphere<f32>] = cast_slice(&numbers);
+    assert_eq!(spheres[2], Sphere::new([8.0, 9.0, 10.0], 11.0));
+    let segments: &[Segment<f32>] = cast_slice(&numbers);
+    assert_eq!(segments[0], Segment::new([0.0, 1.0, 2.0], [3.0, 4.0, 5.0]));
+    let oriented: &[Obb<f32>] = cast_slice(&numbers);
+    assert_eq!(oriented[0].center, Vec3::new(0.0, 1.0, 2.0));
+    assert_eq!(oriented[0].half_axes[2], Vec3::new(9.0, 10.0, 11.0));
+    let mut points = [[0.5_f64, 1.5, 2.5]; 2];
+    cast_slice_mut::<_, Vec3<f64>>(&mut points)[1].y = 7.0;
+    assert_eq!(points[1], [0.5, 7.0, 2.5]);
+    assert_eq!(Obb::<f64>::zeroed(), Obb::default());
+    // Half a box is none.
+    assert!(checked::try_cast_slice::<f32, Aabb<f32>>(&numbers[..9]).is_err());
+}
+
 #[cfg(feature = "approx")]
 #[test]
 fn approx() {

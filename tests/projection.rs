@@ -661,3 +661,54 @@ fn slices_and_types_agree() {
         assert_eq!(in_window, class != Class::Outside, "{p:?}");
     }
 }
+
+#[test]
+fn a_rectangle_of_the_window_is_seen_through_its_frustum() {
+    let frustum = camera(0.1, 100.0).frustum().unwrap();
+    let screen = Projector::new(&frustum).pixels(1200, 800);
+    assert_eq!(screen.window([0.0, 0.0], [1200.0, 800.0]).unwrap(), frustum);
+    let corners = [[150.0, 100.0], [450.0, 700.0]];
+    let band = screen.window(corners[0], corners[1]).unwrap();
+    for [a, b] in [[1, 0], [0, 1]].map(|order| order.map(|k: usize| corners[k])) {
+        assert_eq!(screen.window(a, b).unwrap(), band);
+        assert_eq!(screen.window([a[0], b[1]], [b[0], a[1]]).unwrap(), band);
+    }
+    assert_eq!(
+        band,
+        frustum
+            .window(Rect::new(0.125, 0.375, 0.125, 0.875))
+            .unwrap()
+    );
+    // Side by side, they share a side.
+    let below = screen.window([150.0, 700.0], [450.0, 701.5]).unwrap();
+    assert_eq!(
+        below.shape().near().rect.top,
+        band.shape().near().rect.bottom
+    );
+    // What is seen in the rectangle is in its frustum, and nothing else.
+    for (x, y) in [
+        (151.0, 101.0),
+        (449.0, 699.0),
+        (149.0, 101.0),
+        (300.0, 701.0),
+        (300.0, 99.0),
+    ] {
+        let is_in = (150.0..=450.0).contains(&x) && (100.0..=700.0).contains(&y);
+        let at = screen.ray(x, y).unwrap().at(0.25);
+        assert_eq!(band.contains(at).unwrap(), is_in, "{x} {y}");
+    }
+
+    let flat = screen.window([5.0, 5.0], [5.0, 9.0]).unwrap_err();
+    assert_eq!(
+        flat,
+        FrustumError::Flat {
+            what: "left..right"
+        }
+    );
+    for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+        for corners in [[[bad, 5.0], [7.0, 9.0]], [[5.0, 7.0], [9.0, bad]]] {
+            let error = screen.window(corners[0], corners[1]).unwrap_err();
+            assert!(matches!(error, FrustumError::NonFinite { .. }), "{error}");
+        }
+    }
+}

@@ -1,10 +1,12 @@
 //! Slices of segments through the public interface. That every clip has the bits of the
 //! segment alone, at every vector width, is tested in `src/clip/many/tests.rs`.
 
+use frusta::clip::{IndexError, IndexedEdges, SegmentArrays, SegmentIntervals, Segments};
 use frusta::samples::Family;
 use frusta::{
-    Accuracy, Arithmetic, Axis, Class, CohenSutherland, CyrusBeck, End, Frustum, LiangBarsky,
-    LiangBarskyVariant, Segment, SegmentClip, SegmentClipper, SixPlanes, StageCounts, VwProjection,
+    Accuracy, Arithmetic, Axis, Class, CohenSutherland, Culler, CyrusBeck, End, Frustum,
+    LiangBarsky, LiangBarskyVariant, Segment, SegmentClip, SegmentClipper, SixPlanes, StageCounts,
+    Vec3, VwProjection,
 };
 
 /// Every algorithm in every arithmetic.
@@ -133,4 +135,106 @@ fn a_frustum_clips_slices_exactly() {
             assert_eq!(*clip, single);
         }
     }
+}
+
+/// The same segments as arrays of coordinates, and as points that edges share: each point twice,
+/// so that indices matter.
+fn other_forms(segments: &[Segment<f64>]) -> ([Vec<f64>; 6], Vec<Vec3<f64>>, Vec<[u32; 2]>) {
+    let ends = |s: &Segment<f64>| [s.start, s.end];
+    let coordinates = |k: usize| {
+        segments
+            .iter()
+            .map(move |s| ends(s)[k / 3][k % 3])
+            .collect()
+    };
+    let points: Vec<_> = segments.iter().rev().flat_map(ends).collect();
+    let last = segments.len() as u32 - 1;
+    let edges = (0..=last).map(|i| [2 * (last - i), 2 * (last - i) + 1]);
+    (std::array::from_fn(coordinates), points, edges.collect())
+}
+
+#[test]
+fn arrays_and_indexed_edges_are_clipped_as_slices_are() {
+    for count in [1, 255, 256, 257, 700] {
+        let (frustum, segments) = scene(Family::HalfLattice, count);
+        let (coordinates, points, edges) = other_forms(&segments);
+        let [a, b, c, d, e, f] = coordinates.each_ref().map(Vec::as_slice);
+        let (start, end) = ([a, b, c], [d, e, f]);
+        let edges = IndexedEdges::new(&points, &edges).expect("points exist");
+        let forms = [
+            Segments::from(&segments),
+            Segments::from(SegmentArrays { start, end }),
+            Segments::from(edges),
+        ];
+        let (mut expected, mut clips) = (Vec::new(), Vec::new());
+        let (mut intervals, mut once) = <(SegmentIntervals<f64>, SegmentIntervals<f64>)>::default();
+        for form in forms {
+            assert_eq!((form.len(), form.is_empty()), (segments.len(), false));
+            assert_eq!(form.get(0), Some(segments[0]));
+            assert_eq!(form.get(segments.len()), None);
+            for accuracy in [Accuracy::Fast, Accuracy::Inward] {
+                let all = frustum.clip_segments(&segments, accuracy, &mut expected);
+                all.expect("finite");
+                let all = frustum.clip_segments(form, accuracy, &mut clips);
+                all.expect("finite");
+                assert_eq!(clips, expected);
+            }
+            frustum
+                .clip_intervals(form, &mut intervals)
+                .expect("finite");
+            for (i, clip) in expected.iter().enumerate() {
+                let (class, t0, t1) = intervals.get(i).expect("one for each");
+                let part = clip.part.as_ref();
+                let t = part.map_or((1.0, 0.0), |part| (part.entry.t, part.exit.t));
+                // `Inward` has other points, and the same class.
+                assert_eq!(class, clip.class);
+                assert!(part.is_none() == (t0 > t1) && (t0 - t.0).abs() < 1e-9);
+                assert!((t1 - t.1).abs() < 1e-9);
+            }
+            let culler = Culler::new(&frustum);
+            culler.clip_intervals(form, &mut once).expect("finite");
+            assert_eq!(once.classes(), intervals.classes());
+            #[cfg(feature = "parallel")]
+            {
+                culler.par_clip_intervals(form, &mut once).expect("finite");
+                assert_eq!(once.classes(), intervals.classes());
+            }
+        }
+    }
+}
+
+#[test]
+fn an_edge_at_a_point_that_is_not_finite_is_named() {
+    let (frustum, segments) = scene(Family::Random, 600);
+    let (_, mut points, edges) = other_forms(&segments);
+    points[edges[300][1] as usize].z = f64::NAN;
+    let edges = IndexedEdges::new(&points, &edges).expect("points exist");
+    let mut clips = vec![SegmentClip::OUTSIDE; 3];
+    let error = frustum.clip_segments(edges, Accuracy::Fast, &mut clips);
+    let error = error.unwrap_err();
+    assert!(clips.is_empty());
+    assert_eq!((error.index, error.found.axis), (300, Axis::Z));
+    let error = frustum.clip_intervals(edges, &mut SegmentIntervals::default());
+    assert_eq!(error.unwrap_err().index, 300);
+}
+
+#[test]
+fn edges_at_points_that_do_not_exist_are_refused() {
+    let points = [Vec3::new(0.0, 0.0, 0.0); 2];
+    let error = IndexedEdges::new(&points, &[[0, 1], [1, u32::MAX], [7, 0]]).unwrap_err();
+    let expected = IndexError {
+        edge: 1,
+        point: u32::MAX,
+        points: 2,
+    };
+    assert_eq!(error, expected);
+    assert!(
+        IndexedEdges::<f64>::new(&[], &[])
+            .expect("no edges")
+            .is_empty()
+    );
+    assert_eq!(
+        IndexedEdges::<f64>::new(&[], &[[0, 0]]).unwrap_err().edge,
+        0
+    );
 }
