@@ -9,10 +9,11 @@ use criterion::measurement::WallTime;
 use criterion::{
     BenchmarkGroup, Criterion, SamplingMode, Throughput, criterion_group, criterion_main,
 };
-use frusta::{
-    Accuracy, CohenSutherland, CyrusBeck, Frustum, LiangBarsky, LiangBarskyVariant, Pose, Real,
-    Segment, SegmentClipper, SixPlanes, VwProjection,
+use frusta::clip::{
+    CohenSutherland, CyrusBeck, LiangBarsky, LiangBarskyVariant, SegmentClipper, SixPlanes,
+    VwProjection,
 };
+use frusta::{Accuracy, Frustum, Pose, Real, Segment};
 use frusta_lab::mixes::{
     COUNT, Form, Mix, assert_answers_agree, call, form_cases, frustum, singular,
 };

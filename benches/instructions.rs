@@ -18,11 +18,9 @@
 //! `algorithm, tier, mix`, and, for a segment, `instructions, branches,
 //! mispredicted_simulated` and `mispredicted` (null where nothing counts them).
 
+use frusta::clip::{CyrusBeck, LiangBarsky, LiangBarskyVariant, SegmentClipper, VwProjection};
 use frusta::samples::Placement;
-use frusta::{
-    Accuracy, CyrusBeck, Frustum, LiangBarsky, LiangBarskyVariant, Pose, Real, Segment,
-    SegmentClip, SegmentClipper, VwProjection,
-};
+use frusta::{Accuracy, Frustum, Pose, Real, Segment, SegmentClip};
 use frusta_lab::mixes::{Form, Mix, assert_exact_agree, call, frustum, samples};
 use std::cell::RefCell;
 use std::error::Error;

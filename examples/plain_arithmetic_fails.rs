@@ -2,8 +2,9 @@
 //!
 //! `cargo run --release --features samples --example plain_arithmetic_fails`
 
+use frusta::Class;
+use frusta::clip::{LiangBarsky, LiangBarskyVariant, SegmentClipper, SixPlanes, VwProjection};
 use frusta::samples::Family;
-use frusta::{Class, LiangBarsky, LiangBarskyVariant, SegmentClipper, SixPlanes, VwProjection};
 
 const CASES: u64 = 10_000;
 

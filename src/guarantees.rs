@@ -54,7 +54,7 @@
 //! - no result depends on the algorithm, the processor, the number of threads, or the other segments of
 //!   a slice.
 //!
-//! In [`Arithmetic::Plain`](crate::Arithmetic::Plain) the only promise is a finite answer without a panic: the
+//! In [`Arithmetic::Plain`](crate::clip::Arithmetic::Plain) the only promise is a finite answer without a panic: the
 //! textbook algorithms are there for comparison.
 //!
 //! # How it is known
@@ -88,7 +88,8 @@
 //!
 //! **By recorded results.** No fused multiply-add is used where it would change a bit; recorded answers
 //! are compared in builds with and without AVX2 and FMA, and slices with the same segments one by one
-//! at every vector width. Miri runs the core. `unsafe` code is forbidden.
+//! at every vector width. Miri runs the core. `unsafe` code is forbidden,
+//! except in the feature `bytemuck`.
 //!
 //! The evidence does *not* cover the compiler, the processor, and the libraries for integers and
 //! vector registers. Nor is run time guaranteed: an adversarial input can need integers of 2,000 bits for

@@ -8,7 +8,8 @@
 //! | job | start with |
 //! |---|---|
 //! | cull boxes and spheres | [`Culler`]: one by one, many at once, for trees; [`cull`] |
-//! | clip edges | [`Frustum::clip_segment`], [`Frustum::clip_segments`]; [`clip`] |
+//! | clip edges | [`Frustum::clip_segment`], [`Frustum::clip_segments`] (slices, arrays, indexed edges); [`clip`] |
+//! | project points to pixels, pixels to rays | [`Projector`]; [`Frustum::view_projection`] for a matrix |
 //! | make frusta | [`Camera`], [`ViewProjection`] (matrices of every convention), [`Frustum::new`], [`SixPoints`]; [`frustum`] |
 //!
 //! # Cull
@@ -55,6 +56,27 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
+//! # Project
+//! ```
+//! use frusta::{Accuracy, Camera, Projection, Projector, Segment};
+//!
+//! let projection = Projection::Perspective { fovy: 1.0, aspect: 1.5 };
+//! let (eye, target, up) = ([0.0_f32, 0.0, 5.0], [0.0, 0.0, 0.0], [0.0, 1.0, 0.0]);
+//! let frustum = Camera::new(eye, target, up, projection, 0.1, 100.0).frustum()?;
+//! let screen = Projector::new(&frustum).pixels(1200, 800);
+//!
+//! // An edge in pixels: what `Inward` calls inside never leaves the window.
+//! let edge = Segment::new([0.0_f32, 0.0, 0.0], [9.0, 0.0, 0.0]);
+//! let part = frustum.clip_segment_with(&edge, Accuracy::Inward)?.part.unwrap();
+//! let pixel = screen.project(part.exit.point)?.unwrap();
+//! assert!(pixel.x > 1199.9 && pixel.x <= 1200.0);
+//!
+//! // What is in a rectangle of pixels.
+//! let band = screen.window([500.0, 300.0], [700.0, 500.0])?;
+//! assert!(band.contains([0.0, 0.0, 0.0])?);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
 //! # Make frusta
 //! ```
 //! use frusta::{ClipSpace, MatrixLayout, ViewProjection};
@@ -74,8 +96,8 @@
 //! | module | contents |
 //! |---|---|
 //! | [`math`] | points, segments, rectangles, poses |
-//! | [`frustum`] | [`Frustum`] and its constructors |
-//! | [`clip`] | clipping of segments: one, slices, intervals; six algorithms behind [`SegmentClipper`] |
+//! | [`frustum`] | [`Frustum`] and its constructors, projection |
+//! | [`clip`] | clipping of segments: one, slices, intervals; six algorithms behind [`clip::SegmentClipper`], for comparison |
 //! | [`cull`] | boxes, oriented boxes and spheres: outside, crossing or inside |
 //! | [`guarantees`] | a page: the guarantees, and how they are known to hold |
 //! | `samples` | (feature) the 78 singular samples, and seeded families of hard cases |
@@ -90,6 +112,7 @@
 //! | `glam` (0.34), `glam033`, `glam030`, `glam027` | conversions of points and matrices: bevy 0.20 and rapier 0.36 have 0.33, macroquad 0.4 has 0.27; one feature does not exclude another |
 //! | `nalgebra` (0.35), `mint` (0.5) | the same; `mint` is the way round for other versions, as are arrays |
 //! | `serde`, `approx` | their traits |
+//! | `bytemuck` | points, segments and volumes as plain bytes: slices are cast from and to other types without a copy |
 //! | `samples`, `oracle` | the modules above, for tests of clippers and cullers |
 //!
 //! # Targets
@@ -151,10 +174,7 @@ pub mod oracle;
 pub mod samples;
 mod simd;
 
-pub use clip::{
-    Accuracy, Arithmetic, Class, CohenSutherland, CyrusBeck, LiangBarsky, LiangBarskyVariant, Part,
-    PartEnd, SegmentClip, SegmentClipper, SixPlanes, StageCounts, VwProjection,
-};
+pub use clip::{Accuracy, Class, Part, PartEnd, SegmentClip, StageCounts};
 pub use cull::{
     Aabb, Containment, Culler, MaskedContainment, Obb, Sphere, Volume, VolumeCounts, VolumeError,
     VolumeErrorAt,

@@ -1,10 +1,13 @@
 //! All clippers, through the one trait.
 
+use frusta::clip::{
+    CohenSutherland, CyrusBeck, LiangBarsky, LiangBarskyVariant, SegmentClipper, SixPlanes,
+    VwProjection,
+};
 use frusta::samples::Random;
 use frusta::{
-    Accuracy, Class, CohenSutherland, CyrusBeck, Direction, EndRect, FaceSet, Frustum, LiangBarsky,
-    LiangBarskyVariant, Pose, Real, Rect, Segment, SegmentClip, SegmentClipper, Shape, SixPlanes,
-    Vec3, VwProjection,
+    Accuracy, Class, Direction, EndRect, FaceSet, Frustum, Pose, Real, Rect, Segment, SegmentClip,
+    Shape, Vec3,
 };
 
 type Clipper<T> = Box<dyn SegmentClipper<T>>;
@@ -366,7 +369,7 @@ fn a_huge_segment_is_clipped_at_the_right_points() {
 
 #[test]
 fn default_clippers_are_exact() {
-    let exact = frusta::Arithmetic::Exact(Accuracy::Fast);
+    let exact = frusta::clip::Arithmetic::Exact(Accuracy::Fast);
     assert_eq!(VwProjection::default().arithmetic, exact);
     assert_eq!(LiangBarsky::default().arithmetic, exact);
     assert_eq!(LiangBarsky::default().variant, LiangBarskyVariant::Tuned);

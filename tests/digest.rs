@@ -4,11 +4,12 @@
 //! If a family's cases change on purpose, so do the digests: the one of the
 //! inputs tells that from a change of the answers.
 
-use frusta::samples::{BLOCK, Family, Mix, Placement, Solid, singular_samples};
-use frusta::{
-    Camera, CohenSutherland, CyrusBeck, Frustum, LiangBarsky, LiangBarskyVariant, Projection, Real,
-    Segment, SegmentClipper, Shape, SixPlanes, Vec3, VwProjection,
+use frusta::clip::{
+    CohenSutherland, CyrusBeck, LiangBarsky, LiangBarskyVariant, SegmentClipper, SixPlanes,
+    VwProjection,
 };
+use frusta::samples::{BLOCK, Family, Mix, Placement, Solid, singular_samples};
+use frusta::{Camera, Frustum, Projection, Real, Segment, Shape, Vec3};
 use frusta_lab::check::{ACCURACIES, bits, exact_clippers};
 
 /// FNV-1a of 64 bits.

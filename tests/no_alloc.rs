@@ -2,11 +2,11 @@
 
 use frusta_lab::mixes;
 
+use frusta::clip::SegmentClipper;
 use frusta::cull::{BoxSet, ContainmentMasks, RelativeBoxes, VolumeSource};
 use frusta::samples::{BLOCK, Family, Placement, Solid, singular_samples};
 use frusta::{
-    Aabb, Accuracy, Culler, Frustum, Pose, Real, Segment, SegmentClipper, Sphere, StageCounts,
-    Vec3, VolumeCounts,
+    Aabb, Accuracy, Culler, Frustum, Pose, Real, Segment, Sphere, StageCounts, Vec3, VolumeCounts,
 };
 use mixes::answers::{exact, plain};
 use mixes::{Form, Mix, frustum};

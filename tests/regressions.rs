@@ -1,8 +1,8 @@
 //! Inputs that once gave wrong answers, verbatim, each with its cause.
 
+use frusta::clip::{LiangBarsky, LiangBarskyVariant, SegmentClipper};
 use frusta::{
-    Accuracy, Class, Direction, EndRect, Face, FaceSet, Frustum, LiangBarsky, LiangBarskyVariant,
-    Pose, Rect, Segment, SegmentClipper, Shape, Vec3,
+    Accuracy, Class, Direction, EndRect, Face, FaceSet, Frustum, Pose, Rect, Segment, Shape, Vec3,
 };
 use frusta_lab::check::assert_guarantees;
 

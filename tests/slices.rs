@@ -1,12 +1,14 @@
 //! Slices of segments through the public interface. That every clip has the bits of the
 //! segment alone, at every vector width, is tested in `src/clip/many/tests.rs`.
 
-use frusta::clip::{IndexError, IndexedEdges, SegmentArrays, SegmentIntervals, Segments};
+use frusta::clip::{
+    Arithmetic, CohenSutherland, CyrusBeck, IndexError, IndexedEdges, LiangBarsky,
+    LiangBarskyVariant, SegmentArrays, SegmentClipper, SegmentIntervals, Segments, SixPlanes,
+    VwProjection,
+};
 use frusta::samples::Family;
 use frusta::{
-    Accuracy, Arithmetic, Axis, Class, CohenSutherland, Culler, CyrusBeck, End, Frustum,
-    LiangBarsky, LiangBarskyVariant, Segment, SegmentClip, SegmentClipper, SixPlanes, StageCounts,
-    Vec3, VwProjection,
+    Accuracy, Axis, Class, Culler, End, Frustum, Segment, SegmentClip, StageCounts, Vec3,
 };
 
 /// Every algorithm in every arithmetic.

@@ -1,10 +1,11 @@
 //! Each stage of the predicates is reached, and decides the cases that it is for.
 
-use frusta::samples::{Placement, Solid};
-use frusta::{
-    Accuracy, Class, CohenSutherland, CyrusBeck, EndRect, Frustum, LiangBarsky, LiangBarskyVariant,
-    Pose, Segment, SegmentClipper, Shape, SixPlanes, StageCounts, VwProjection,
+use frusta::clip::{
+    CohenSutherland, CyrusBeck, LiangBarsky, LiangBarskyVariant, SegmentClipper, SixPlanes,
+    VwProjection,
 };
+use frusta::samples::{Placement, Solid};
+use frusta::{Accuracy, Class, EndRect, Frustum, Pose, Segment, Shape, StageCounts};
 
 fn counts(frustum: &Frustum, s: &Segment<f64>, accuracy: Accuracy) -> (Class, StageCounts) {
     let mut counts = StageCounts::default();

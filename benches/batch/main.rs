@@ -12,12 +12,9 @@ mod data;
 mod separating;
 
 use data::{BoxColumns, SegmentColumns};
-use frusta::clip::SegmentIntervals;
+use frusta::clip::{SegmentClipper, SegmentIntervals, VwProjection};
 use frusta::cull::{BoxSet, ContainmentMasks};
-use frusta::{
-    Aabb, Accuracy, Class, Containment, Culler, Pose, Segment, SegmentClip, SegmentClipper,
-    VwProjection,
-};
+use frusta::{Aabb, Accuracy, Class, Containment, Culler, Pose, Segment, SegmentClip};
 use frusta_lab::mixes::{COUNT, Form, Mix, call, frustum};
 use frusta_lab::turns::{Pass, Spread, geometric_mean, take_turns};
 use separating::SeparatingAxes;

@@ -5,10 +5,11 @@
 
 mod slices;
 
-use frusta::{
-    Accuracy, CohenSutherland, CyrusBeck, Frustum, LiangBarsky, LiangBarskyVariant, Pose, Real,
-    Segment, SegmentClipper, SixPlanes, VwProjection,
+use frusta::clip::{
+    CohenSutherland, CyrusBeck, LiangBarsky, LiangBarskyVariant, SegmentClipper, SixPlanes,
+    VwProjection,
 };
+use frusta::{Accuracy, Frustum, Pose, Real, Segment};
 use frusta_lab::mixes::{COUNT, Form, Mix, assert_answers_agree, call, form_cases, frustum};
 use frusta_lab::turns::{Pass, Timing, take_turns};
 use std::hint::black_box;

@@ -4,10 +4,8 @@
 //! program does that uses the clips while they are in the cache. The clippers take turns; medians
 //! over rounds are printed. First every answer of a slice is compared with that of the segment alone.
 
-use frusta::{
-    Accuracy, Frustum, LiangBarsky, LiangBarskyVariant, Real, Segment, SegmentClip, SegmentClipper,
-    VwProjection,
-};
+use frusta::clip::{LiangBarsky, LiangBarskyVariant, SegmentClipper, VwProjection};
+use frusta::{Accuracy, Frustum, Real, Segment, SegmentClip};
 use frusta_lab::mixes::{self, COUNT, Form, Mix, frustum};
 use frusta_lab::turns::{Pass, take_turns};
 use std::hint::black_box;

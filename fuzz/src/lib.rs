@@ -13,10 +13,11 @@ mod volumes;
 
 use arbitrary::Unstructured;
 use case::Case;
-use frusta::{
-    CohenSutherland, CyrusBeck, Frustum, LiangBarsky, LiangBarskyVariant, Real, Segment,
-    SegmentClipper, SixPlanes, VwProjection,
+use frusta::clip::{
+    CohenSutherland, CyrusBeck, LiangBarsky, LiangBarskyVariant, SegmentClipper, SixPlanes,
+    VwProjection,
 };
+use frusta::{Frustum, Real, Segment};
 use frusta_lab::{CaseLine, CaseSegment, check};
 
 /// Exact answers about a structured case: all guarantees, in `f64` and `f32`, and

@@ -1,9 +1,9 @@
 //! Slices made of a case's segment and of variants of it, compared with single calls.
 
 use crate::check::bits;
+use frusta::clip::{Arithmetic, SegmentClipper, VwProjection};
 use frusta::{
-    Accuracy, Arithmetic, Frustum, NonFinite, NonFiniteAt, Real, Segment, SegmentClip,
-    SegmentClipper, StageCounts, Vec3, VwProjection,
+    Accuracy, Frustum, NonFinite, NonFiniteAt, Real, Segment, SegmentClip, StageCounts, Vec3,
 };
 
 /// Longer than a block, and not a multiple of any vector width.

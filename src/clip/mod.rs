@@ -69,8 +69,10 @@ use crate::simd::Level;
 /// results are the same, too.
 ///
 /// ```
-/// use frusta::{Accuracy, Class, CyrusBeck, EndRect, Frustum, Pose, Segment, SegmentClipper};
-/// use frusta::{Shape, VwProjection};
+/// use frusta::clip::{CyrusBeck, SegmentClipper};
+/// use frusta::{Accuracy, Class, EndRect, Frustum, Pose, Segment};
+/// use frusta::clip::VwProjection;
+/// use frusta::Shape;
 /// # let near = EndRect::new(1.0, -1.0, 1.0, -1.0, 1.0);
 /// # let far = EndRect::new(3.0, -3.0, 3.0, -3.0, 3.0);
 /// # let frustum = Frustum::new(Pose::IDENTITY, Shape::Finite { near, far })?;

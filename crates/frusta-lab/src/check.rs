@@ -3,11 +3,12 @@
 //!
 //! Tests and fuzz targets share it, so that a finding and its regression test check the same.
 
-use frusta::oracle::{Oracle, check_idempotent, check_swapped};
-use frusta::{
-    Accuracy, CohenSutherland, CyrusBeck, Frustum, LiangBarsky, LiangBarskyVariant, Part, PartEnd,
-    Real, Segment, SegmentClip, SegmentClipper, SixPlanes, VwProjection,
+use frusta::clip::{
+    CohenSutherland, CyrusBeck, LiangBarsky, LiangBarskyVariant, SegmentClipper, SixPlanes,
+    VwProjection,
 };
+use frusta::oracle::{Oracle, check_idempotent, check_swapped};
+use frusta::{Accuracy, Frustum, Part, PartEnd, Real, Segment, SegmentClip};
 
 /// Every accuracy.
 pub const ACCURACIES: [Accuracy; 3] = [Accuracy::Fast, Accuracy::Nearest, Accuracy::Inward];

@@ -1,10 +1,9 @@
 //! The paper's table and the verification, with small counts.
 
+use frusta::clip::{SegmentClipper, SixPlanes};
 use frusta::oracle::ViolationKind;
 use frusta::samples::Family;
-use frusta::{
-    Accuracy, Frustum, NonFinite, Segment, SegmentClip, SegmentClipper, SixPlanes, StageCounts,
-};
+use frusta::{Accuracy, Frustum, NonFinite, Segment, SegmentClip, StageCounts};
 use frusta_lab::{
     ExactClipper, Options, PaperTable, Subject, Tier, paper_table, rotated_poses, verify,
 };

@@ -23,7 +23,7 @@
 //! half-width, bottom and top another, near and far serve both trapezoids.
 //!
 //! # The same bits
-//! Each lane applies the rules of `clip/rules/`, as [`VwProjection`](crate::VwProjection) does
+//! Each lane applies the rules of `clip/rules/`, as [`VwProjection`](crate::clip::VwProjection) does
 //! with one segment, in the same order of operations, or leaves the segment to it. The values of
 //! an uncertain segment are not passed along: few are, and a queue of values would cost all. The
 //! vector width is chosen once for a slice, at run time. The only fused operation is the rest of a

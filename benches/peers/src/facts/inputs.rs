@@ -10,7 +10,8 @@ use bevy_math::{Mat4, Vec4};
 use bevy_shape::ViewFrustum;
 use cgmath::Ortho;
 use collision::Projection;
-use frusta::{Accuracy, EndRect, Frustum, Pose, Real, Segment, Shape, Vec3, VwProjection};
+use frusta::clip::VwProjection;
+use frusta::{Accuracy, EndRect, Frustum, Pose, Real, Segment, Shape, Vec3};
 use frusta_lab::mixes;
 
 /// An input, with who answers it.

@@ -2,10 +2,8 @@
 
 use super::{Found, PIECE, part};
 use crate::peer::{Contestant, Peer, Who, enter};
-use frusta::{
-    Accuracy, Frustum, LiangBarsky, LiangBarskyVariant, NonFinite, NonFiniteAt, Real, Segment,
-    SegmentClip, SegmentClipper, VwProjection,
-};
+use frusta::clip::{LiangBarsky, LiangBarskyVariant, SegmentClipper, VwProjection};
+use frusta::{Accuracy, Frustum, NonFinite, NonFiniteAt, Real, Segment, SegmentClip};
 use std::hint::black_box;
 use std::marker::PhantomData;
 

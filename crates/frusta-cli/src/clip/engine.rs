@@ -1,11 +1,11 @@
 //! The algorithms by name.
 
 use clap::ValueEnum;
-use frusta::clip::LiangBarskyVariant;
-use frusta::{
-    CohenSutherland, CyrusBeck, Frustum, LiangBarsky, NonFiniteAt, Real, Segment, SegmentClip,
-    SegmentClipper, SixPlanes, StageCounts, VwProjection,
+use frusta::clip::{
+    self, CohenSutherland, CyrusBeck, LiangBarsky, LiangBarskyVariant, SegmentClipper, SixPlanes,
+    VwProjection,
 };
+use frusta::{Frustum, NonFiniteAt, Real, Segment, SegmentClip, StageCounts};
 
 /// `--algorithm`
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -57,15 +57,15 @@ impl From<Accuracy> for frusta::Accuracy {
 /// The chosen clipper.
 pub(crate) struct Engine<T> {
     clipper: Box<dyn SegmentClipper<T> + Send + Sync>,
-    arithmetic: frusta::Arithmetic,
+    arithmetic: clip::Arithmetic,
 }
 
 impl<T: Real> Engine<T> {
     /// The clipper of these names.
     pub(crate) fn new(algorithm: Algorithm, arithmetic: Arithmetic, accuracy: Accuracy) -> Self {
         let arithmetic = match arithmetic {
-            Arithmetic::Plain => frusta::Arithmetic::Plain,
-            Arithmetic::Exact => frusta::Arithmetic::Exact(accuracy.into()),
+            Arithmetic::Plain => clip::Arithmetic::Plain,
+            Arithmetic::Exact => clip::Arithmetic::Exact(accuracy.into()),
         };
         let liang_barsky = |variant| {
             Box::new(LiangBarsky {
@@ -95,14 +95,14 @@ impl<T: Real> Engine<T> {
     /// The arithmetic and, if it is exact, the accuracy.
     pub(crate) fn arithmetic(&self) -> (&'static str, Option<&'static str>) {
         match self.arithmetic {
-            frusta::Arithmetic::Exact(accuracy) => ("exact", Some(accuracy.name())),
-            frusta::Arithmetic::Plain => ("plain", None),
+            clip::Arithmetic::Exact(accuracy) => ("exact", Some(accuracy.name())),
+            clip::Arithmetic::Plain => ("plain", None),
         }
     }
 
     /// Whether there are stages of decisions to count.
     pub(crate) fn counts(&self) -> bool {
-        self.arithmetic != frusta::Arithmetic::Plain
+        self.arithmetic != clip::Arithmetic::Plain
     }
 
     /// Clips segments: `clips` is cleared, then gets a clip a segment. Adds to `stages`.

@@ -144,8 +144,9 @@ fn exact_point(segment: &Segment<f64>, t: f64) -> Option<Vec3<f64>> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use frusta::Accuracy;
+    use frusta::clip::{SegmentClipper, VwProjection};
     use frusta::samples::singular_samples;
-    use frusta::{Accuracy, SegmentClipper, VwProjection};
 
     #[test]
     fn points_are_exact_or_refused() {

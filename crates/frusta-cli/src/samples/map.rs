@@ -9,10 +9,8 @@ use crate::draw::{self, Palette, Theme};
 use crate::failure::Failure;
 use crate::terminal::print;
 use clap::{Args, ValueEnum};
-use frusta::{
-    Accuracy, Class, EndRect, Frustum, Pose, Segment, SegmentClip, SegmentClipper, Shape, Vec3,
-    VwProjection,
-};
+use frusta::clip::{SegmentClipper, VwProjection};
+use frusta::{Accuracy, Class, EndRect, Frustum, Pose, Segment, SegmentClip, Shape, Vec3};
 use std::path::PathBuf;
 
 /// A map of answers near a feature, by plain and by exact arithmetic, an ulp a cell

@@ -1,9 +1,10 @@
 //! Checks, before anything is timed, that all clippers give the same answers.
 
-use frusta::{
-    Accuracy, Class, CohenSutherland, CyrusBeck, FaceSet, Frustum, LiangBarsky, LiangBarskyVariant,
-    Real, Segment, SegmentClip, SegmentClipper, SixPlanes, VwProjection,
+use frusta::clip::{
+    CohenSutherland, CyrusBeck, LiangBarsky, LiangBarskyVariant, SegmentClipper, SixPlanes,
+    VwProjection,
 };
+use frusta::{Accuracy, Class, FaceSet, Frustum, Real, Segment, SegmentClip};
 
 /// Class, clipped flags and face sets.
 fn decided<T: Real>(clip: &SegmentClip<T>) -> (Class, [bool; 2], [FaceSet; 3]) {

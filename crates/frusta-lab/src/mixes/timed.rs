@@ -3,8 +3,9 @@
 use super::{
     COUNT, Form, Mix, assert_answers_agree, assert_exact_agree, frustum, samples, wrong_answers,
 };
+use frusta::clip::SegmentClipper;
 use frusta::samples::Placement;
-use frusta::{Frustum, NonFinite, Pose, Real, Segment, SegmentClip, SegmentClipper};
+use frusta::{Frustum, NonFinite, Pose, Real, Segment, SegmentClip};
 
 /// A call like any other: whether the compiler would inline an algorithm into
 /// the loop that times it says nothing about the algorithm.

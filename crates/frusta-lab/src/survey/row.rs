@@ -112,7 +112,7 @@ impl SurveyAlgorithm {
     /// The reference of a row's time, in the same family: this algorithm in plain `f64`.
     pub const REFERENCE: SurveyAlgorithm = SurveyAlgorithm::LiangBarskyTextbook;
 
-    /// The algorithm's name, the same as [`SegmentClipper::name`](frusta::SegmentClipper::name)
+    /// The algorithm's name, the same as [`SegmentClipper::name`](frusta::clip::SegmentClipper::name)
     /// gives.
     pub const fn name(self) -> &'static str {
         [

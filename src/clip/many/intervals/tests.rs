@@ -1,5 +1,6 @@
 //! Intervals against segments clipped alone, to the bit, at every vector width.
 
+use super::super::segments::SegmentArrays;
 use super::*;
 use crate::clip::Class;
 use crate::frustum::eval::half_space::HalfSpace;
