@@ -1,8 +1,9 @@
 //! How fast the clippers are, as ratios to textbook Liang-Barsky.
 //!
-//! `cargo bench --bench ratios [-- ROUNDS] [segments|slices]`. The clippers take turns
+//! `cargo bench --bench ratios [-- ROUNDS] [segments|slices|projection]`. The clippers take turns
 //! ([`frusta_lab::turns`]); medians over the rounds are printed. Answers are compared first.
 
+mod projection;
 mod slices;
 
 use frusta::clip::{
@@ -139,10 +140,16 @@ fn main() {
     let rounds = args.iter().find_map(|arg| arg.parse().ok());
     let rounds = rounds.unwrap_or(10_usize).max(1);
     let asked = |name: &str| args.iter().any(|arg| arg == name);
-    if !asked("slices") {
-        segments(rounds);
-    }
-    if !asked("segments") {
-        slices::print(rounds);
+    let parts: [(&str, fn(usize)); 3] = [
+        ("segments", segments),
+        ("slices", slices::print),
+        ("projection", projection::print),
+    ];
+    // Without a name, all.
+    let is_named = parts.iter().any(|(name, _)| asked(name));
+    for (name, print) in parts {
+        if asked(name) || !is_named {
+            print(rounds);
+        }
     }
 }
