@@ -7,6 +7,7 @@
 mod build;
 mod case;
 mod meter;
+mod projection;
 pub mod readers;
 mod slices;
 mod volumes;
@@ -30,6 +31,8 @@ pub fn clip(data: &[u8]) {
     check::assert_guarantees(&case.frustum, &case.in_singles());
     slices::check(&case.frustum, &case.segment);
     slices::check(&case.frustum, &case.in_singles());
+    projection::check(&case.frustum, &case.segment);
+    projection::check(&case.frustum, &case.in_singles());
 }
 
 /// Volumes and batches: exact answers are the oracle's, and those of batches what each volume
@@ -50,6 +53,8 @@ pub fn plain(data: &[u8]) {
     check_plain(&case.frustum, &case.in_singles());
     slices::check(&case.frustum, &case.segment);
     slices::check(&case.frustum, &case.in_singles());
+    projection::check(&case.frustum, &case.segment);
+    projection::check(&case.frustum, &case.in_singles());
 }
 
 /// A case as a line: what is written comes back with the same bits, and any text
@@ -107,6 +112,7 @@ pub fn constructors(data: &[u8]) {
         if segment.check_finite().is_ok() {
             check::assert_guarantees(&frustum, &segment);
             check_plain(&frustum, &segment);
+            projection::check(&frustum, &segment);
         }
     }
 }

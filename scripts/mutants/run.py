@@ -49,6 +49,7 @@ VOLUME_TESTS = [("volumes", []), ("frusta", ["cull::"]), ("regressions", [])]
 # Slices are compared with single calls first. So are the rules that all share.
 SLICE_TESTS = [("frusta", ["clip::many::"]), *TESTS]
 INTERVAL_TESTS = [("frusta", ["clip::many::intervals::", "cull::"]), ("volumes", [])]
+PROJECTION_TESTS = [("projection", []), ("projection_matrices", [])]
 SECONDS = 300
 
 SWITCH = """
@@ -141,7 +142,7 @@ def write_tree(mutants):
 
 def build():
     """The test binaries, by name."""
-    names = {n for n, _ in TESTS + VOLUME_TESTS if n != "frusta"}
+    names = {n for n, _ in TESTS + VOLUME_TESTS + PROJECTION_TESTS if n != "frusta"}
     targets = ["--lib"] + [a for n in names for a in ("--test", n)]
     command = ["cargo", "test", "--package", "frusta", "--package", "frusta-lab", "--no-run"]
     command += ["--message-format", "json-render-diagnostics", *targets]
@@ -188,6 +189,8 @@ def tests_of(file):
         return SLICE_TESTS
     if file.startswith(("src/cull/", "src/frustum/eval/half_space")):
         return VOLUME_TESTS
+    if file.startswith("src/frustum/project/"):
+        return PROJECTION_TESTS
     return TESTS
 
 
