@@ -31,7 +31,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 
     // Boxes: exactly, so that none is taken that only its planes could not reject.
     let mut classes = Vec::new();
-    Culler::new(&band).over(&crates).classes(&mut classes)?;
+    Culler::new(&band)
+        .over(&crates)
+        .exact()
+        .classes(&mut classes)?;
     let count = |class| classes.iter().filter(|&&c| c == class).count();
     let (whole, cut) = (count(Containment::Inside), count(Containment::Crossing));
     println!(

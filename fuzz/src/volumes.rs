@@ -38,8 +38,18 @@ fn boxes<T: Real>(segment: &Segment<T>) -> Vec<Aabb<T>> {
     let Segment { start, end } = *segment;
     let mut all = vec![Aabb::new(start, start), Aabb::new(end, end)];
     all.extend(Aabb::around([start, end]));
-    if segment.start.x.to_f64().to_bits() % 8 == 1 {
-        all.push(Aabb::new(start, end));
+    match segment.start.x.to_f64().to_bits() % 8 {
+        1 => all.push(Aabb::new(start, end)),
+        2 => {
+            let infinity = T::from_f64(f64::INFINITY);
+            all.extend([Aabb::EMPTY, Aabb::UNBOUNDED]);
+            all.push(Aabb::new(start, [infinity, end.y, infinity]));
+            all.push(Aabb::new(
+                [-infinity, start.y, start.z],
+                [end.x, end.y, infinity],
+            ));
+        }
+        _ => {}
     }
     all
 }

@@ -21,6 +21,7 @@
 
 use super::separation::Separation;
 use super::support::{Extent, with_extent};
+use super::unbounded::Unbounded;
 use super::volume::{Volume, VolumeError};
 use super::{Containment, VolumeCounts};
 use crate::frustum::eval::half_space::{HalfSpace, OFFSET_LIMIT, size, threshold, value};
@@ -141,6 +142,12 @@ impl PlanePairs {
     }
 }
 
+/// [`Extent::size`], where the type is not named.
+#[inline(always)]
+fn size_of<V: Extent>(_: &V, middle: &V::Middle) -> f64 {
+    V::size(middle)
+}
+
 /// The lesser of two values side by side.
 #[inline(always)]
 fn lesser(pair: f64x2) -> f64 {
@@ -245,6 +252,9 @@ impl Culler {
         counts: &mut VolumeCounts,
     ) -> Result<Containment, VolumeError> {
         volume.check()?;
+        if let Some(unbounded) = Unbounded::of(volume) {
+            return Ok(unbounded.classify(&self.half_spaces, counts));
+        }
         let middle = v.middle();
         Ok(self.plane_by_plane(v, &middle, V::size(&middle), counts))
     }
@@ -314,18 +324,28 @@ impl Culler {
     ) -> Result<MaskedContainment, VolumeError> {
         let volume = volume.into();
         volume.check()?;
-        with_extent!(&volume, v => Ok(self.by_some_planes(v, faces, hint)))
+        let counts = &mut VolumeCounts::default();
+        if let Some(unbounded) = Unbounded::of(&volume) {
+            let mut answer = self.by_some_planes(faces, hint, |h| unbounded.side(h, counts));
+            if let Unbounded::Empty = unbounded {
+                answer.containment = Containment::Outside;
+            }
+            return Ok(answer);
+        }
+        with_extent!(&volume, v => {
+            let middle = v.middle();
+            let size = size_of(v, &middle);
+            Ok(self.by_some_planes(faces, hint, |h| v.side(&middle, size, h, counts)))
+        })
     }
 
-    fn by_some_planes<V: Extent>(
+    #[inline(always)]
+    fn by_some_planes(
         &self,
-        v: &V,
         faces: FaceSet,
         hint: &mut Option<Face>,
+        mut side: impl FnMut(&HalfSpace) -> Containment,
     ) -> MaskedContainment {
-        let counts = &mut VolumeCounts::default();
-        let middle = v.middle();
-        let size = V::size(&middle);
         let mut crossed = FaceSet::EMPTY;
         let first = hint.filter(|&face| faces.contains(face));
         let all = self.frustum.faces().iter().zip(&self.half_spaces);
@@ -333,7 +353,7 @@ impl Culler {
         let is_asked = |(face, _): &(&Face, &HalfSpace)| faces.contains(**face);
         let rest = all.clone().filter(|pair| !is_first(pair));
         for (&face, half_space) in all.filter(is_first).chain(rest).filter(is_asked) {
-            match v.side(&middle, size, half_space, counts) {
+            match side(half_space) {
                 Containment::Outside => {
                     *hint = Some(face);
                     return MaskedContainment {

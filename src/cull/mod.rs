@@ -28,6 +28,7 @@
 //! volume      the volumes, and what makes one invalid
 //! support     how far a volume reaches along a normal
 //! culler      one volume, face plane by face plane
+//! unbounded   boxes with infinite sides, and the empty box
 //! separation  the separating axis test, for volumes that no face plane rejects
 //! many        one query for many volumes, in vector registers and on threads
 //! segments    intervals of many segments
@@ -40,6 +41,7 @@ mod many;
 mod segments;
 mod separation;
 mod support;
+mod unbounded;
 mod volume;
 
 pub use counts::VolumeCounts;

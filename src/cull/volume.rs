@@ -5,7 +5,9 @@ use std::fmt;
 
 /// An axis-aligned box: the points `p` with `min <= p <= max` in every coordinate.
 ///
-/// A box may be flat, an edge or a point, but not empty.
+/// A box may be flat, an edge or a point. Its sides may be infinite: `min` from negative infinity,
+/// `max` to infinity, up to all of space, [`Aabb::UNBOUNDED`]. [`Aabb::EMPTY`] contains no point, and is outside
+/// of every frustum; any other box with a `min` above its `max` is invalid, as is NaN.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -128,7 +130,7 @@ pub enum VolumeError {
         /// The value found.
         value: f64,
     },
-    /// A box's `min` is greater than its `max`: the box is empty.
+    /// A box's `min` is greater than its `max`, and it is not [`Aabb::EMPTY`].
     Inverted {
         /// The coordinate.
         axis: Axis,
@@ -152,7 +154,7 @@ impl fmt::Display for VolumeError {
             }
             Self::Inverted { axis, min, max } => write!(
                 f,
-                "min.{axis} = {} is greater than max.{axis} = {}; the box is empty",
+                "min.{axis} = {} is greater than max.{axis} = {}; the box is inverted",
                 Short(min),
                 Short(max)
             ),
@@ -214,6 +216,61 @@ fn non_finite(names: [&'static str; 3], v: Vec3<f64>) -> Result<(), VolumeError>
 }
 
 impl<T: Real> Aabb<T> {
+    /// No point: what a union begins with. In each coordinate `min` is infinity and `max` is negative infinity.
+    ///
+    /// ```
+    /// use frusta::{Aabb, Containment, Culler, EndRect, Frustum, Pose, Shape};
+    /// # let near = EndRect::new(1.0, -1.0, 1.0, -1.0, 1.0);
+    /// # let far = EndRect::new(3.0, -3.0, 3.0, -3.0, 3.0);
+    /// # let frustum = Frustum::new(Pose::IDENTITY, Shape::Finite { near, far })?;
+    /// let culler = Culler::new(&frustum);
+    /// let unit = Aabb::new([0.0_f32; 3], [1.0; 3]);
+    /// assert_eq!(Aabb::EMPTY.union(unit), unit);
+    /// assert_eq!(culler.classify(Aabb::<f32>::EMPTY)?, Containment::Outside);
+    /// assert_eq!(culler.classify(Aabb::<f32>::UNBOUNDED)?, Containment::Crossing);
+    /// // The ground, everywhere: below the left half of this frustum's lower side.
+    /// let low = [f64::NEG_INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY];
+    /// let ground = Aabb::new(low, [f64::INFINITY, -3.5, f64::INFINITY]);
+    /// assert_eq!(culler.classify_exact(ground)?, Containment::Outside);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub const EMPTY: Self = Self {
+        min: Vec3::new(T::INFINITY, T::INFINITY, T::INFINITY),
+        max: Vec3::new(T::NEG_INFINITY, T::NEG_INFINITY, T::NEG_INFINITY),
+    };
+
+    /// All points: for what is never culled.
+    pub const UNBOUNDED: Self = Self {
+        min: Self::EMPTY.max,
+        max: Self::EMPTY.min,
+    };
+
+    /// Whether it is [`Aabb::EMPTY`].
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        *self == Self::EMPTY
+    }
+
+    /// The smallest box that contains two boxes. A coordinate that is NaN may be ignored.
+    #[must_use]
+    pub fn union(self, other: Self) -> Self {
+        let (a, b) = (self, other);
+        let less = |a: T, b: T| if b < a { b } else { a };
+        let more = |a: T, b: T| if b > a { b } else { a };
+        Self {
+            min: Vec3::new(
+                less(a.min.x, b.min.x),
+                less(a.min.y, b.min.y),
+                less(a.min.z, b.min.z),
+            ),
+            max: Vec3::new(
+                more(a.max.x, b.max.x),
+                more(a.max.y, b.max.y),
+                more(a.max.z, b.max.z),
+            ),
+        }
+    }
+
     /// Makes a box from its least and its greatest coordinates, unchecked.
     ///
     /// ```
@@ -221,8 +278,8 @@ impl<T: Real> Aabb<T> {
     /// let unit = Aabb::new([0.0, 0.0, 0.0], [1.0, 1.0, 1.0]);
     /// assert!(unit.check().is_ok());
     /// assert_eq!(Aabb::around([[1.0, 0.0, 1.0], [0.0, 1.0, 0.0]]), Some(unit));
-    /// let empty = Aabb::new([0.0, 2.0, 0.0], [1.0, 1.0, 1.0]).check().unwrap_err();
-    /// assert_eq!(empty.to_string(), "min.y = 2 is greater than max.y = 1; the box is empty");
+    /// let inverted = Aabb::new([0.0, 2.0, 0.0], [1.0, 1.0, 1.0]).check().unwrap_err();
+    /// assert_eq!(inverted.to_string(), "min.y = 2 is greater than max.y = 1; the box is inverted");
     /// ```
     #[must_use]
     #[inline(always)]
@@ -268,20 +325,7 @@ impl<T: Real> Aabb<T> {
     pub fn around<P: Into<Vec3<T>>>(points: impl IntoIterator<Item = P>) -> Option<Self> {
         let mut points = points.into_iter().map(Into::into);
         let first = points.next()?;
-        let less = |a: T, b: T| if b < a { b } else { a };
-        let more = |a: T, b: T| if b > a { b } else { a };
-        Some(points.fold(Self::new(first, first), |all, p| Self {
-            min: Vec3::new(
-                less(all.min.x, p.x),
-                less(all.min.y, p.y),
-                less(all.min.z, p.z),
-            ),
-            max: Vec3::new(
-                more(all.max.x, p.x),
-                more(all.max.y, p.y),
-                more(all.max.z, p.z),
-            ),
-        }))
+        Some(points.fold(Self::new(first, first), |all, p| all.union(Self::new(p, p))))
     }
 
     /// The same box in `f64`; always exact.
@@ -291,26 +335,42 @@ impl<T: Real> Aabb<T> {
         Aabb::new(self.min.to_f64(), self.max.to_f64())
     }
 
-    /// Checks that the box is finite and not empty.
+    /// Checks that the box is one: finite, with infinite sides, or [`Aabb::EMPTY`].
     ///
     /// # Errors
-    /// The first component that is infinite or NaN; else the first coordinate in which
+    /// The first component that is NaN, or infinite on the wrong side; else the first coordinate in which
     /// `min` is greater than `max`.
     #[inline]
     pub fn check(&self) -> Result<(), VolumeError> {
-        check_finite(MIN, self.min)?;
-        check_finite(MAX, self.max)?;
         let (a, b) = (self.min, self.max);
-        if (a.x <= b.x) & (a.y <= b.y) & (a.z <= b.z) {
+        let is_ordered = (a.x <= b.x) & (a.y <= b.y) & (a.z <= b.z);
+        if is_ordered && a.is_finite() && b.is_finite() {
             return Ok(());
         }
-        let (a, b) = (a.to_f64(), b.to_f64());
+        self.check_unusual()
+    }
+
+    #[cold]
+    fn check_unusual(&self) -> Result<(), VolumeError> {
+        if self.is_empty() {
+            return Ok(());
+        }
+        let (a, b) = (self.min.to_f64(), self.max.to_f64());
+        for (names, values, wrong) in [(MIN, a, f64::INFINITY), (MAX, b, f64::NEG_INFINITY)] {
+            for (what, value) in names.into_iter().zip(values.to_array()) {
+                if value.is_nan() || value == wrong {
+                    return Err(VolumeError::NonFinite { what, value });
+                }
+            }
+        }
         let (axis, min, max) = if a.x > b.x {
             (Axis::X, a.x, b.x)
         } else if a.y > b.y {
             (Axis::Y, a.y, b.y)
-        } else {
+        } else if a.z > b.z {
             (Axis::Z, a.z, b.z)
+        } else {
+            return Ok(());
         };
         Err(VolumeError::Inverted { axis, min, max })
     }
@@ -330,6 +390,36 @@ impl<T: Real> Obb<T> {
         Self {
             center: center.into(),
             half_axes: half_axes.map(Into::into),
+        }
+    }
+
+    /// The image of a box under an affine transformation, as of an object's own bounds in its place in the world:
+    /// turned, moved, scaled and skewed. `columns` are the images of the axes, and the image of the origin.
+    ///
+    /// Each coordinate is within 6 u of the sum of the magnitudes of the products in it (in `f32`: rounded once
+    /// from `f64`). What is stored is then the box, exactly. The image of a box that is not finite is not finite, and
+    /// invalid.
+    ///
+    /// ```
+    /// use frusta::{Aabb, Obb};
+    /// // Turned by a quarter around z, twice as high, moved along x.
+    /// let columns = [[0.0, 1.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 0.0, 2.0], [10.0, 0.0, 0.0]];
+    /// let local = Aabb::new([0.0, 0.0, 0.0], [2.0, 4.0, 6.0]);
+    /// let placed = Obb::from_affine(local, columns);
+    /// assert_eq!(placed.center, [8.0, 1.0, 6.0].into());
+    /// assert_eq!(placed.half_axes[1], [-2.0, 0.0, 0.0].into());
+    /// ```
+    #[must_use]
+    pub fn from_affine(local: Aabb<T>, columns: [impl Into<Vec3<T>>; 4]) -> Self {
+        let [x, y, z, origin] = columns.map(|column| column.into().to_f64());
+        let (min, max) = (local.min.to_f64(), local.max.to_f64());
+        // Halves first: no overflow, and exact but for subnormals.
+        let center = min * 0.5 + max * 0.5;
+        let half = max * 0.5 - min * 0.5;
+        let along = x * center.x + y * center.y + z * center.z;
+        Self {
+            center: Vec3::from_f64(along + origin),
+            half_axes: [x * half.x, y * half.y, z * half.z].map(Vec3::from_f64),
         }
     }
 

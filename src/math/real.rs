@@ -68,6 +68,10 @@ pub trait Real:
     const ZERO: Self;
     /// One.
     const ONE: Self;
+    /// Positive infinity.
+    const INFINITY: Self;
+    /// Negative infinity.
+    const NEG_INFINITY: Self;
 
     /// The same value in `f64`; always exact.
     fn to_f64(self) -> f64;
@@ -91,6 +95,8 @@ macro_rules! real {
             const DIGITS: u32 = $t::MANTISSA_DIGITS;
             const ZERO: Self = 0.0;
             const ONE: Self = 1.0;
+            const INFINITY: Self = $t::INFINITY;
+            const NEG_INFINITY: Self = $t::NEG_INFINITY;
 
             #[inline(always)]
             fn to_f64(self) -> f64 {

@@ -20,6 +20,7 @@ use super::separation::{ExactBox, Separation};
 use super::vector::{Vector, dot, exact, exact_point, minus, plus, times};
 use crate::cull::{Aabb, Containment, Volume};
 use crate::frustum::FaceSet;
+use crate::math::Vec3;
 use std::cmp::Ordering;
 
 /// An exact volume.
@@ -55,8 +56,28 @@ impl Exact {
     }
 }
 
+/// Whether it is the empty box: outside of all faces, and not in any.
+fn is_empty(volume: &Volume) -> bool {
+    matches!(volume, Volume::Aabb(v) if v.is_empty())
+}
+
+/// An infinite side's coordinate: so far out that no sum or product of a few numbers of `f64` reaches it.
+/// With it, all of a box's answers are those without bounds: a coefficient that is not zero
+/// decides, and what the box and the frustum have in common has a vertex nearer than this.
+const FAR: i64 = 40_000;
+
+fn coordinates(p: Vec3<f64>) -> Vector {
+    let far = || Dyadic::power_of_two(FAR);
+    p.to_array().map(|c| match c {
+        f64::INFINITY => far(),
+        f64::NEG_INFINITY => -&far(),
+        _ => exact(c),
+    })
+}
+
+/// Precondition: the box is not empty.
 fn aligned(v: &Aabb<f64>) -> ExactBox {
-    let (min, max) = (exact_point(v.min), exact_point(v.max));
+    let (min, max) = (coordinates(v.min), coordinates(v.max));
     let half = exact(0.5);
     let [x, y, z] = times(&minus(&max, &min), &half);
     let zero = Dyadic::zero;
@@ -149,6 +170,10 @@ impl Oracle {
     /// # Panics
     /// If the volume fails [`Volume::check`].
     pub fn volume_faces(&self, volume: &Volume) -> (FaceSet, FaceSet) {
+        if is_empty(volume) {
+            let all = self.half_spaces.iter().map(|plane| plane.face);
+            return (all.collect(), FaceSet::EMPTY);
+        }
         let faces = self.faces_beyond(&Exact::new(volume));
         (faces.outside, faces.crossing)
     }
@@ -185,6 +210,9 @@ impl Oracle {
     /// # Panics
     /// If the volume fails [`Volume::check`].
     pub fn intersects(&self, volume: &Volume) -> bool {
+        if is_empty(volume) {
+            return false;
+        }
         let exact = Exact::new(volume);
         let faces = self.faces_beyond(&exact);
         if !faces.outside.is_empty() {

@@ -179,7 +179,7 @@ fn a_pyramid_ends_at_its_apex() {
 }
 
 #[test]
-#[should_panic(expected = "min.y = 1 is greater than max.y = 0; the box is empty")]
+#[should_panic(expected = "min.y = 1 is greater than max.y = 0; the box is inverted")]
 fn an_invalid_volume_panics() {
     symmetric().intersects(&Aabb::new([0.0, 1.0, 0.0], [1.0, 0.0, 1.0]).into());
 }

@@ -90,6 +90,10 @@ pub(super) trait Volumes<T: Real, const K: usize> {
     /// The components of one volume.
     fn components(&self, index: usize) -> [T; K];
 
+    /// Whether a volume with these components is finite, and valid.
+    #[cfg(simd)]
+    fn is_usual(components: [T; K]) -> bool;
+
     /// Classifies a block at a vector width. The largest magnitude is given if all volumes are
     /// known to be valid; without `inside` only *outside* is decided.
     #[cfg(simd)]
@@ -117,6 +121,33 @@ pub struct Request<'a> {
     pub(super) culler: &'a Culler,
     /// Whether an invalid volume is crossing, and no error.
     pub(super) keeps_invalid: bool,
+    /// Whether classes are those of [`Culler::classify_exact`].
+    pub(super) is_exact: bool,
+}
+
+impl Request<'_> {
+    /// The class of the volume at an index.
+    #[inline]
+    pub(super) fn classify(
+        &self,
+        index: usize,
+        volume: Volume,
+        counts: &mut VolumeCounts,
+    ) -> Result<Containment, VolumeErrorAt> {
+        let class = if self.is_exact {
+            self.culler.classify_exact_counted(volume, counts)
+        } else {
+            self.culler.classify_counted(volume, counts)
+        };
+        match class {
+            Ok(class) => Ok(class),
+            Err(_) if self.keeps_invalid => {
+                counts.invalid += 1;
+                Ok(Containment::Crossing)
+            }
+            Err(error) => Err(VolumeErrorAt { index, error }),
+        }
+    }
 }
 
 /// What classifies volumes, block by block.
@@ -139,7 +170,8 @@ impl<T: Real, Vols> BlockDriver<'_, T, Vols> {
     where
         Vols: Volumes<T, K>,
     {
-        let inside = out.needs_inside();
+        // What is inside needs no exact test.
+        let inside = out.needs_inside() || self.request.is_exact;
         let mut gathered = [[[T::ZERO; 8]; K]; BLOCK / 8];
         for start in range.clone().step_by(BLOCK) {
             let count = BLOCK.min(range.end - start);
@@ -148,6 +180,10 @@ impl<T: Real, Vols> BlockDriver<'_, T, Vols> {
                 let count = count.saturating_sub(k * WORD).min(WORD);
                 let present = u64::MAX.checked_shr((WORD - count) as u32).unwrap_or(0);
                 bits.undecided &= present;
+                if self.request.is_exact {
+                    let crossing = present & !(bits.outside | bits.inside | bits.undecided);
+                    self.test_exactly(start + k * WORD, crossing, bits, counts);
+                }
                 if bits.undecided != 0 {
                     self.decide(start + k * WORD, bits, counts)?;
                 }
@@ -178,7 +214,48 @@ impl<T: Real, Vols> BlockDriver<'_, T, Vols> {
                 (&*gathered, None)
             }
         };
-        Vols::classify_block(self.level, self.planes, block, largest, inside)
+        let answers = Vols::classify_block(self.level, self.planes, block, largest, inside);
+        if answers.iter().all(|bits| bits.undecided == u64::MAX) {
+            return self.classify_the_usual(*block, inside, answers);
+        }
+        answers
+    }
+
+    /// Classifies a block of which nothing was decided once more, without the volumes that are the reason: those that are
+    /// invalid, empty or not finite. They stay undecided.
+    #[cfg(simd)]
+    #[cold]
+    #[inline(never)]
+    fn classify_the_usual<const K: usize>(
+        &self,
+        mut block: Block<T, K>,
+        inside: bool,
+        undecided: BlockAnswers,
+    ) -> BlockAnswers
+    where
+        Vols: Volumes<T, K>,
+    {
+        let mut unusual = [0; BLOCK / WORD];
+        for (i, eight) in block.iter_mut().enumerate() {
+            for j in 0..8 {
+                if !Vols::is_usual(eight.map(|components| components[j])) {
+                    eight
+                        .iter_mut()
+                        .for_each(|components| components[j] = T::ZERO);
+                    unusual[i / (WORD / 8)] |= 1_u64 << (i % (WORD / 8) * 8 + j);
+                }
+            }
+        }
+        if unusual == [0; BLOCK / WORD] {
+            return undecided;
+        }
+        let mut answers = Vols::classify_block(self.level, self.planes, &block, None, inside);
+        for (bits, unusual) in answers.iter_mut().zip(unusual) {
+            bits.outside &= !unusual;
+            bits.inside &= !unusual;
+            bits.undecided |= unusual;
+        }
+        answers
     }
 
     #[cfg(not(simd))]
@@ -194,6 +271,7 @@ impl<T: Real, Vols> BlockDriver<'_, T, Vols> {
     {
         let mut answers = [BlockBits::default(); BLOCK / WORD];
         let stored = self.volumes.block(start);
+        let stored = stored.filter(|(_, largest)| largest.is_finite());
         let size = stored.map(|(_, largest)| largest + largest + largest);
         let threshold = size.map(|size| self.planes.threshold(size, true));
         let classify = Vols::classify_one();
@@ -236,6 +314,28 @@ impl<T: Real, Vols> BlockDriver<'_, T, Vols> {
         }
     }
 
+    /// Tests volumes that no face plane rejects, and that are not inside, one by one.
+    #[inline(never)]
+    fn test_exactly<const K: usize>(
+        &self,
+        start: usize,
+        mut crossing: u64,
+        bits: &mut BlockBits,
+        counts: &mut VolumeCounts,
+    ) where
+        Vols: Volumes<T, K>,
+    {
+        while crossing != 0 {
+            let bit = crossing & crossing.wrapping_neg();
+            crossing ^= bit;
+            let volume = self.volumes.volume(start + bit.trailing_zeros() as usize);
+            let culler = self.request.culler;
+            if volume.is_some_and(|v| culler.is_separate_volume(&v, counts)) {
+                bits.outside |= bit;
+            }
+        }
+    }
+
     /// Classifies undecided volumes one by one.
     #[inline(never)]
     fn decide<const K: usize>(
@@ -255,14 +355,7 @@ impl<T: Real, Vols> BlockDriver<'_, T, Vols> {
             let Some(volume) = self.volumes.volume(index) else {
                 continue;
             };
-            let class = match self.request.culler.classify_counted(volume, counts) {
-                Ok(class) => class,
-                Err(_) if self.request.keeps_invalid => {
-                    counts.invalid += 1;
-                    Containment::Crossing
-                }
-                Err(error) => return Err(VolumeErrorAt { index, error }),
-            };
+            let class = self.request.classify(index, volume, counts)?;
             bits.outside |= if class == Containment::Outside {
                 bit
             } else {

@@ -111,6 +111,13 @@ impl<T: Real> Boxes<'_, T> {
     }
 }
 
+/// Whether a box is finite, and not inverted.
+#[cfg(simd)]
+pub(super) fn is_usual<T: Real>([x0, y0, z0, x1, y1, z1]: [T; 6]) -> bool {
+    let all = Aabb::new([x0, y0, z0], [x1, y1, z1]);
+    all.min.is_finite() && all.max.is_finite() && all.check().is_ok()
+}
+
 impl<T: Real> Volumes<T, 6> for Boxes<'_, T> {
     fn len(&self) -> usize {
         self.len()
@@ -153,6 +160,11 @@ impl<T: Real> Volumes<T, 6> for Boxes<'_, T> {
             }
             Boxes::Set(set) => set.components(index),
         }
+    }
+
+    #[cfg(simd)]
+    fn is_usual(components: [T; 6]) -> bool {
+        is_usual(components)
     }
 
     #[cfg(simd)]

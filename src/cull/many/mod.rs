@@ -14,6 +14,7 @@
 //! kernels       a block of boxes or spheres, by vector registers
 //! one           the same without vector registers
 //! boxes         axis-aligned boxes in arrays and slices
+//! oriented      oriented boxes in slices
 //! box_set       boxes that are kept: validated and laid out once, fastest to query
 //! relative      boxes in f64, read in f32 relative to an anchor near them
 //! spheres       spheres in arrays and slices
@@ -28,6 +29,7 @@ mod kernels;
 mod masks;
 #[cfg(not(simd))]
 mod one;
+mod oriented;
 mod output;
 #[cfg(feature = "parallel")]
 pub(super) mod parallel;

@@ -244,10 +244,10 @@ fn one_bad_volume_in_a_frame_hides_nothing() {
         let mut expected: Vec<_> = one_by_one(culler, &boxes).into_iter().map(Some).collect();
         let [a, b, c, d] = [300, 301, 8_200, COUNT - 1];
         boxes[a].max.y = nan;
-        boxes[b].max.x = infinity;
+        boxes[b].min.x = infinity;
         let valid = boxes[c];
         boxes[c] = Aabb::new(valid.max, valid.min);
-        boxes[d] = Aabb::new([infinity; 3], [-infinity; 3]);
+        boxes[d] = Aabb::new([infinity, T::ZERO, T::ZERO], [-infinity; 3]);
         for bad in [a, b, c, d] {
             expected[bad] = None;
         }

@@ -21,6 +21,8 @@ use super::block_driver::BlockAnswers;
 use super::block_driver::{Block, Volumes};
 use super::box_set::{BoxSet, Stored};
 #[cfg(simd)]
+use super::boxes::is_usual;
+#[cfg(simd)]
 use super::kernels;
 #[cfg(not(simd))]
 use super::one::Classify;
@@ -183,6 +185,11 @@ impl Volumes<f32, 6> for RelativeQuery<'_> {
 
     fn components(&self, index: usize) -> [f32; 6] {
         self.near.components(index)
+    }
+
+    #[cfg(simd)]
+    fn is_usual(components: [f32; 6]) -> bool {
+        is_usual(components)
     }
 
     #[cfg(simd)]

@@ -2,10 +2,11 @@
 
 use super::block_driver::{BlockDriver, Request, Volumes};
 use super::boxes::{BoxArrays, Boxes};
+use super::oriented::OrientedBoxes;
 use super::relative::{RelativeBoxes, RelativeQuery};
 use super::spheres::{SphereArrays, Spheres};
 use super::{BoxSet, output::Sink};
-use crate::cull::{Aabb, Culler, Sphere, VolumeCounts, VolumeErrorAt};
+use crate::cull::{Aabb, Culler, Obb, Sphere, VolumeCounts, VolumeErrorAt};
 use crate::math::{PerReal, Real};
 use crate::simd::Level;
 use std::ops::Range;
@@ -20,7 +21,8 @@ pub(super) use sealed::{Query, Source};
 /// | `&`[`RelativeBoxes`] | `f64`, read as `f32` | as a `BoxSet<f32>`, and some microseconds a query; for coordinates that need `f64` |
 /// | [`BoxArrays`], or a reference to it | both | a quarter more than a set |
 /// | [`SphereArrays`], or a reference | both | fastest of spheres |
-/// | slices, `Vec`s and arrays of [`Aabb`] or [`Sphere`] | both | slowest: components are gathered |
+/// | slices, `Vec`s and arrays of [`Aabb`] or [`Sphere`] | both | components are gathered |
+/// | slices, `Vec`s and arrays of [`Obb`] | both | slowest: one by one |
 ///
 /// In `f32` twice as many volumes share a register as in `f64`.
 pub trait VolumeSource: Source {}
@@ -73,6 +75,9 @@ source!(&'a [Aabb<T>] => Boxes);
 source!(&'a [Aabb<T>; N] => Boxes, N);
 source!(&'a Vec<Aabb<T>> => Boxes);
 source!(&'a BoxSet<T> => Boxes);
+source!(&'a [Obb<T>] => OrientedBoxes);
+source!(&'a [Obb<T>; N] => OrientedBoxes, N);
+source!(&'a Vec<Obb<T>> => OrientedBoxes);
 source!(SphereArrays<'a, T> => Spheres);
 source!(&SphereArrays<'a, T> => Spheres);
 source!(&'a [Sphere<T>] => Spheres);

@@ -139,6 +139,11 @@ impl<T: Real> Volumes<T, 4> for Spheres<'_, T> {
     }
 
     #[cfg(simd)]
+    fn is_usual([x, y, z, radius]: [T; 4]) -> bool {
+        Sphere::new([x, y, z], radius).check().is_ok()
+    }
+
+    #[cfg(simd)]
     fn classify_block(
         level: Level,
         planes: &FacePlanes<T>,

@@ -93,6 +93,7 @@ fn compare<T: Real, const K: usize>(
             request: Request {
                 culler,
                 keeps_invalid: false,
+                is_exact: false,
             },
             planes: T::pick(culler.face_planes()),
             volumes: &volumes,
@@ -188,12 +189,12 @@ fn the_first_invalid_volume_is_returned_and_buffers_are_emptied() {
     let bad = [
         (Aabb::new([0.0, f32::NAN, 0.0], [1.0; 3]), "min.y = NaN"),
         (
-            Aabb::new([0.0; 3], [1.0, 1.0, f32::INFINITY]),
-            "max.z = inf",
+            Aabb::new([0.0; 3], [1.0, 1.0, f32::NEG_INFINITY]),
+            "max.z = -inf",
         ),
         (
-            Aabb::new([f32::NEG_INFINITY, 0.0, 0.0], [1.0; 3]),
-            "min.x = -inf",
+            Aabb::new([f32::INFINITY, 0.0, 0.0], [1.0; 3]),
+            "min.x = inf",
         ),
         (
             Aabb::new([0.0, 0.0, 2.0], [1.0; 3]),

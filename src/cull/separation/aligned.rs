@@ -20,9 +20,10 @@
 //! `n . A (p - o)` has the normal `(n . A e_k)`.
 
 use super::hull::Hull;
-use crate::cull::VolumeCounts;
 use crate::cull::support::{Centred, Extent};
+use crate::cull::unbounded::Unbounded;
 use crate::cull::volume::Aabb;
+use crate::cull::{Containment, VolumeCounts};
 use crate::exact::Number;
 use crate::frustum::Frustum;
 use crate::frustum::eval::exact_vec::{Dyadic, Dyadic3, cross, dot};
@@ -158,5 +159,11 @@ impl Aligned {
         }
         let outside = |h: &HalfSpace| volume.is_outside(&middle, size, h, counts);
         !is_within && self.separators.iter().any(outside)
+    }
+
+    /// As [`Aligned::is_separate`], for a box that is not finite.
+    pub(super) fn is_separate_unbounded(&self, v: &Unbounded, counts: &mut VolumeCounts) -> bool {
+        let outside = |h: &HalfSpace| v.side(h, counts) == Containment::Outside;
+        self.separators.iter().any(outside)
     }
 }

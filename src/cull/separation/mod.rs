@@ -24,6 +24,7 @@ mod oriented;
 mod sphere;
 
 use super::support::with_extent;
+use super::unbounded::Unbounded;
 use super::volume::{Aabb, Obb, Sphere, Volume, VolumeError};
 use super::{Containment, Culler, VolumeCounts};
 use crate::exact::float::exp2;
@@ -154,6 +155,9 @@ impl Culler {
     ) -> Result<Containment, VolumeError> {
         let volume = volume.into();
         volume.check()?;
+        if let Some(unbounded) = Unbounded::of(&volume) {
+            return Ok(self.classify_unbounded(&unbounded, counts));
+        }
         with_extent!(&volume, v => {
             let class = self.by_planes(v, counts);
             if class == Containment::Crossing && self.is_separate(v, counts) {
@@ -161,6 +165,35 @@ impl Culler {
             }
             Ok(class)
         })
+    }
+
+    #[cold]
+    fn classify_unbounded(&self, v: &Unbounded, counts: &mut VolumeCounts) -> Containment {
+        let class = v.classify(self.half_spaces(), counts);
+        if class == Containment::Crossing && self.is_separate_unbounded(v, counts) {
+            return Containment::Outside;
+        }
+        class
+    }
+
+    fn is_separate_unbounded(&self, v: &Unbounded, counts: &mut VolumeCounts) -> bool {
+        let is_separate = self.aligned().is_separate_unbounded(v, counts);
+        counts.exact_tests += 1;
+        counts.false_accepts += u64::from(is_separate);
+        is_separate
+    }
+
+    /// Whether a valid volume is separate from the frustum. Precondition: no face plane rejects it.
+    pub(super) fn is_separate_volume(&self, volume: &Volume, counts: &mut VolumeCounts) -> bool {
+        if let Some(unbounded) = Unbounded::of(volume) {
+            return self.is_separate_unbounded(&unbounded, counts);
+        }
+        with_extent!(volume, v => self.is_separate(v, counts))
+    }
+
+    fn aligned(&self) -> &Aligned {
+        let make = || Aligned::new(self.frustum(), self.half_spaces());
+        self.separation().aligned.get_or_init(make)
     }
 
     /// Precondition: no face plane rejects the volume.

@@ -143,6 +143,11 @@ impl HalfSpace {
         self.up[axis]
     }
 
+    /// The sign of a component of the normal, exactly.
+    pub(crate) fn direction(&self, axis: usize) -> Ordering {
+        self.exact[axis].sign()
+    }
+
     /// The part of [`HalfSpace::threshold`] that does not depend on the point.
     pub(crate) fn constant(&self) -> f64 {
         self.constant
