@@ -134,13 +134,16 @@ fn segments(rounds: usize) {
     forms(rounds);
 }
 
+/// A name, and what prints its tables with a number of rounds.
+type Part = (&'static str, fn(usize));
+
 fn main() {
     // Cargo passes --bench, too.
     let args: Vec<String> = std::env::args().skip(1).collect();
     let rounds = args.iter().find_map(|arg| arg.parse().ok());
     let rounds = rounds.unwrap_or(10_usize).max(1);
     let asked = |name: &str| args.iter().any(|arg| arg == name);
-    let parts: [(&str, fn(usize)); 3] = [
+    let parts: [Part; 3] = [
         ("segments", segments),
         ("slices", slices::print),
         ("projection", projection::print),
