@@ -139,9 +139,11 @@ fn a_frustum_clips_slices_exactly() {
     }
 }
 
+type Columns = [Vec<f64>; 6];
+
 /// The same segments as arrays of coordinates, and as points that edges share: each point twice,
 /// so that indices matter.
-fn other_forms(segments: &[Segment<f64>]) -> ([Vec<f64>; 6], Vec<Vec3<f64>>, Vec<[u32; 2]>) {
+fn other_forms(segments: &[Segment<f64>]) -> (Columns, Vec<Vec3<f64>>, Vec<[u32; 2]>) {
     let ends = |s: &Segment<f64>| [s.start, s.end];
     let coordinates = |k: usize| {
         segments

@@ -24,7 +24,9 @@ use super::support::{Extent, with_extent};
 use super::unbounded::Unbounded;
 use super::volume::{Volume, VolumeError};
 use super::{Containment, VolumeCounts};
-use crate::frustum::eval::half_space::{HalfSpace, OFFSET_LIMIT, size, threshold, value};
+use crate::frustum::eval::half_space::{
+    HalfSpace, HalfSpaces, OFFSET_LIMIT, size, threshold, value,
+};
 use crate::frustum::eval::planes::FacePlanesPair;
 use crate::frustum::{Face, FaceSet, Frustum};
 use crate::math::Vec3;
@@ -69,7 +71,7 @@ use wide::f64x2;
 pub struct Culler {
     frustum: Frustum,
     /// The faces' half spaces, in the order of [`Frustum::faces`].
-    half_spaces: Box<[HalfSpace]>,
+    half_spaces: HalfSpaces,
     /// The same, rounded: all are evaluated before the first decision.
     planes: PlanePairs,
     /// The same for many volumes or segments.
@@ -169,7 +171,7 @@ impl Culler {
     /// Prepares a frustum's faces.
     #[must_use]
     pub fn new(frustum: &Frustum) -> Self {
-        let half_spaces = HalfSpace::of_faces(frustum);
+        let half_spaces = HalfSpaces::new(frustum);
         Self {
             frustum: frustum.clone(),
             planes: PlanePairs::new(&half_spaces),
@@ -278,7 +280,7 @@ impl Culler {
         counts: &mut VolumeCounts,
     ) -> Containment {
         let mut all = Containment::Inside;
-        for half_space in &self.half_spaces {
+        for half_space in self.half_spaces.iter() {
             match v.side(middle, size, half_space, counts) {
                 Containment::Outside => return Containment::Outside,
                 Containment::Crossing => all = Containment::Crossing,
@@ -348,7 +350,7 @@ impl Culler {
     ) -> MaskedContainment {
         let mut crossed = FaceSet::EMPTY;
         let first = hint.filter(|&face| faces.contains(face));
-        let all = self.frustum.faces().iter().zip(&self.half_spaces);
+        let all = self.frustum.faces().iter().zip(self.half_spaces.iter());
         let is_first = |(face, _): &(&Face, &HalfSpace)| Some(**face) == first;
         let is_asked = |(face, _): &(&Face, &HalfSpace)| faces.contains(**face);
         let rest = all.clone().filter(|pair| !is_first(pair));

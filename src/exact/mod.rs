@@ -5,6 +5,7 @@
 //! a safe range of exponents, on the stack), [`dyadic`] (always exact, big
 //! integers; the only one that allocates).
 
+pub(crate) mod ball;
 pub(crate) mod double_double;
 pub(crate) mod dyadic;
 pub(crate) mod expansion;

@@ -16,15 +16,10 @@
 
 use crate::exact::Number;
 use crate::frustum::{Face, Frustum, Shape};
-use crate::math::Vec3;
+use crate::math::{Pose, Vec3};
 
 /// The frame coordinate `axes[k] . (p - origin)`.
-fn frame_coordinate<N: Number>(
-    frustum: &Frustum,
-    k: usize,
-    p: Vec3<f64>,
-) -> Result<N, N::Overflow> {
-    let pose = frustum.pose();
+fn frame_coordinate<N: Number>(pose: &Pose, k: usize, p: Vec3<f64>) -> Result<N, N::Overflow> {
     let mut sum: Option<N> = None;
     for j in 0..3 {
         let axis = pose.axes[k][j];
@@ -52,11 +47,20 @@ pub(crate) fn boundary<N: Number>(
     face: Face,
     p: Vec3<f64>,
 ) -> Result<N, N::Overflow> {
-    let shape = frustum.shape();
+    boundary_in(frustum.pose(), frustum.shape(), face, p)
+}
+
+/// As [`boundary`], of a frustum with this pose and shape.
+pub(crate) fn boundary_in<N: Number>(
+    pose: &Pose,
+    shape: &Shape,
+    face: Face,
+    p: Vec3<f64>,
+) -> Result<N, N::Overflow> {
     let near = shape.near();
     let flip = shape.direction().sign() < 0.0;
     let signed = |v: N, negative: bool| if negative { v.neg() } else { v };
-    let z = || frame_coordinate::<N>(frustum, 2, p);
+    let z = || frame_coordinate::<N>(pose, 2, p);
     let (axis, side) = match face {
         Face::Near => return Ok(signed(z()?.add(&N::from_f64(-near.z))?, flip)),
         Face::Far => {
@@ -71,7 +75,7 @@ pub(crate) fn boundary<N: Number>(
         Face::Top => (1, 3),
     };
     let n = near.rect.to_array()[side];
-    let across = frame_coordinate::<N>(frustum, axis, p)?.add(&N::from_f64(-n))?;
+    let across = frame_coordinate::<N>(pose, axis, p)?.add(&N::from_f64(-n))?;
     let low = match shape {
         Shape::Finite { far, .. } => {
             let f = far.rect.to_array()[side];

@@ -6,6 +6,7 @@
 //! filter      their rounded values, the error bound and the thresholds
 //! precise     their values to 106 bits
 //! plain       coefficients for plain arithmetic
+//! face_coefficients  the same to 106 bits, as linear functions in the world
 //! half_space  a face as an exact inequality n . p + d >= 0, with signs in stages
 //! planes      the faces' half spaces in a batch's scalar type
 //! plane_lanes the same in each lane of a register
@@ -14,6 +15,7 @@
 
 pub(crate) mod boundary;
 pub(crate) mod exact_vec;
+mod face_coefficients;
 pub(crate) mod filter;
 pub(crate) mod half_space;
 pub(crate) mod plain;

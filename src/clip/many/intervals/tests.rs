@@ -3,7 +3,7 @@
 use super::super::segments::SegmentArrays;
 use super::*;
 use crate::clip::Class;
-use crate::frustum::eval::half_space::HalfSpace;
+use crate::frustum::eval::half_space::HalfSpaces;
 use crate::frustum::{Direction, EndRect, Shape};
 use crate::math::{Pose, Rect, Segment};
 use crate::samples::{BLOCK as CASES, Family};
@@ -19,7 +19,7 @@ impl Prepared {
     fn new(frustum: &Frustum) -> Self {
         Self {
             frustum: frustum.clone(),
-            planes: FacePlanesPair::new(&HalfSpace::of_faces(frustum)),
+            planes: FacePlanesPair::new(&HalfSpaces::new(frustum)),
         }
     }
 
