@@ -57,7 +57,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             .ok_or("the edge is outside")?;
         println!(
             "{name}: the edge leaves through {} at y = {}; sides off by at most {:e} in clip space",
-            part.exit.faces, part.exit.point.y, found.deviation.sides
+            part.exit.faces,
+            part.exit.point.y,
+            found.deviation().sides
         );
         assert!(part.exit.faces.contains(Face::Top));
         assert_eq!(part.exit.point.y, 5.0);

@@ -88,7 +88,7 @@
 //! let matrix = ViewProjection::from_flat(columns, MatrixLayout::ColumnMajorColumnVectors);
 //! let found = matrix.frustum(ClipSpace::ZERO_TO_ONE)?;
 //! assert!(found.frustum.contains([0.0, 5.0, -5.0])?);
-//! assert_eq!(found.deviation.sides, 0.0);
+//! assert_eq!(found.deviation().sides, 0.0);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!

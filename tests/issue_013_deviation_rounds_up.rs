@@ -153,7 +153,7 @@ fn the_near_vertex_of_issue_13() {
     let off = &ulp / (Exact::one() - &ulp / exact(2.0));
     let [sides, ..] = deviation(&m, ClipSpace::ZERO_TO_ONE, &found);
     assert_eq!(sides, Some(off));
-    assert_eq!(found.deviation.sides, 2.0_f64.powi(-53).next_up());
+    assert_eq!(found.deviation().sides, 2.0_f64.powi(-53).next_up());
 }
 
 #[test]
@@ -170,7 +170,7 @@ fn subnormal_deviations_are_rounded_up() {
     let matrix = ViewProjection::new(m, MatrixLayout::RowMajorColumnVectors);
     let found = matrix.frustum(ClipSpace::ZERO_TO_ONE.reversed()).unwrap();
     assert_eq!(found.frustum.shape().near().z, 2.0 * least);
-    assert_eq!(found.deviation.near, 0.25);
+    assert_eq!(found.deviation().near, 0.25);
     Counts::default().check(m, ClipSpace::ZERO_TO_ONE.reversed());
 }
 
@@ -190,7 +190,7 @@ impl Counts {
         self.frusta += 1;
         let m = m.map(|row| row.map(T::to_f64));
         let truths = deviation(&m, clip, &found);
-        let d = found.deviation;
+        let d = found.deviation();
         for (i, reported) in [d.sides, d.near, d.far].into_iter().enumerate() {
             let truth = truths[i].as_ref();
             assert!(is_rounded_up(reported, truth), "{m:?} {clip:?}: {d:?}");

@@ -137,7 +137,7 @@ fn every_depth_convention() {
             near_to(near, 0.5, 1e-14) && near_to(far.unwrap(), 32.0, 1e-12),
             "{clip:?}"
         );
-        let d = found.deviation;
+        let d = found.deviation();
         assert!(d.sides == 0.0 && d.near < 1e-15 && d.far < 1e-15, "{d:?}");
         // X = x / w + shift z is +-W where x = (+-1 + shift) w W.
         let corners = found.frustum.corners().near;
@@ -165,7 +165,7 @@ fn infinite_in_every_convention() {
             for found in [frustum(m, clip).unwrap(), frustum32(m, clip).unwrap()] {
                 let (got, far) = depths(&found.frustum);
                 assert!(near_to(got, near, 1e-7) && far.is_none(), "{clip:?} {got}");
-                assert_eq!(found.deviation.far, 0.0);
+                assert_eq!(found.deviation().far, 0.0);
             }
         }
     }
@@ -215,7 +215,7 @@ fn orthographic_near_and_far_are_at_their_distances() {
                 assert!((p.z - z).abs() < bound, "{clip:?} {p}");
                 assert!(near_to(p.x.abs(), 10.0, 1e-6) && near_to(p.y.abs(), 5.0, 1e-6));
             }
-            let d = found.deviation;
+            let d = found.deviation();
             assert!(d.sides < 1e-15 && d.near < 1e-15 && d.far < 1e-15, "{d:?}");
         }
     }
@@ -315,7 +315,7 @@ fn a_tilted_far_plane_is_reported() {
     let mut m = perspective(clip, 1.0, 1.0, 0.0, 1.0, 1001.0);
     m[2][0] = 1e-6;
     let found = frustum32(m, clip).unwrap();
-    let Deviation { sides, near, far } = found.deviation;
+    let Deviation { sides, near, far } = found.deviation();
     assert!(sides == 0.0 && near_to(near, 1e-6, 1e-2) && near_to(far, 1e-3, 1e-2));
     // In f64 rounding does not explain it.
     let got = frustum(m, clip);
@@ -326,9 +326,9 @@ fn a_tilted_far_plane_is_reported() {
     let found = frustum32(m, clip).unwrap();
     assert!(found.frustum.shape().far().is_none());
     assert!(
-        near_to(found.deviation.far, 1e-6, 1e-2),
+        near_to(found.deviation().far, 1e-6, 1e-2),
         "{:?}",
-        found.deviation
+        found.deviation()
     );
 }
 
@@ -341,7 +341,7 @@ fn the_eye_is_rounded_and_nothing_else() {
     let m = product(perspective(clip, 1.0, 1.0, 0.0, 1e-3, f64::INFINITY), turn);
     let found = frustum(m, clip).unwrap();
     assert_eq!(found.frustum.pose().axes[0].to_array(), m[0][..3]);
-    let sides = found.deviation.sides;
+    let sides = found.deviation().sides;
     assert!(sides > 1e-9 && sides < 3.0 * 1.2e-10 / 1e-3, "{sides}");
 }
 
@@ -389,7 +389,7 @@ fn check_corners(
     let (at_near, at_far) = ends(clip);
     let corners = found.frustum.corners();
     let signs = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
-    let d = found.deviation;
+    let d = found.deviation();
     for (p, s) in corners.near.into_iter().zip(signs) {
         let [x, y, z, w] = clip_coordinates(m, p);
         prop_assert!((x / w - s[0]).abs() <= d.sides + noise, "{} {:?}", p, d);
@@ -435,7 +435,7 @@ proptest! {
         // 100 / near.
         let noise = 1e-12 * (1.0 + 100.0 / near) * (1.0 + 1.0 / w + 1.0 / h);
         check_corners(&m, clip, &found, noise)?;
-        prop_assert!(found.deviation.sides < noise && found.deviation.near < noise);
+        prop_assert!(found.deviation().sides < noise && found.deviation().near < noise);
         let (got, _) = depths(&found.frustum);
         prop_assert!(near_to(got, near, noise), "{} {}", got, near);
 
@@ -461,7 +461,7 @@ proptest! {
             match found {
                 Ok(found) => {
                     prop_assert!(found.frustum.shape().validate().is_ok());
-                    let d = found.deviation;
+                    let d = found.deviation();
                     prop_assert!(d.sides >= 0.0 && d.near >= 0.0 && d.far >= 0.0, "{:?}", d);
                     if let Shape::Infinite { direction, .. } = *found.frustum.shape() {
                         prop_assert_eq!(direction, Direction::PlusZ);

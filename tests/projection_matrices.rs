@@ -163,9 +163,9 @@ fn matrices_give_their_frustum_back() {
                 continue;
             }
             assert!(
-                back.deviation.sides < 1e-12,
+                back.deviation().sides < 1e-12,
                 "{:?} {camera:?}",
-                back.deviation
+                back.deviation()
             );
             assert_eq!(
                 frustum.shape().far().is_some(),

@@ -139,7 +139,7 @@ fn matrix(u: &mut Unstructured<'_>) -> Result<Option<Frustum>> {
         ViewProjection::new(entries, layout).frustum(clip)
     };
     Ok(made.ok().map(|made| {
-        let d = made.deviation;
+        let d = made.deviation();
         assert!(
             d.sides >= 0.0 && d.near >= 0.0 && d.far >= 0.0,
             "{entries:?}: {d:?}"

@@ -115,13 +115,6 @@ impl Ball {
         (self.magnitude() + self.radius) * ROUNDED_UP
     }
 
-    pub(crate) fn abs(self) -> Self {
-        Self {
-            middle: self.middle.abs(),
-            ..self
-        }
-    }
-
     /// `self / other`; nothing is known of it if `other` may be zero.
     pub(crate) fn over(self, other: Self) -> Self {
         if self.is_zero() && other.sign().is_some_and(Ordering::is_ne) {
