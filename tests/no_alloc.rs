@@ -4,9 +4,10 @@ use frusta_lab::mixes;
 
 use frusta::clip::SegmentClipper;
 use frusta::cull::{BoxSet, ContainmentMasks, RelativeBoxes, VolumeSource};
-use frusta::samples::{BLOCK, Family, Placement, Solid, singular_samples};
+use frusta::samples::{BLOCK, Family, Placement, Random, Solid, singular_samples};
 use frusta::{
-    Aabb, Accuracy, Culler, Frustum, Pose, Real, Segment, Sphere, StageCounts, Vec3, VolumeCounts,
+    Aabb, Accuracy, Camera, ClipSpace, Culler, Frustum, Pose, Projection, Real, Segment, Sphere,
+    StageCounts, Vec3, VolumeCounts,
 };
 use mixes::answers::{exact, plain};
 use mixes::{Form, Mix, frustum};
@@ -191,6 +192,45 @@ fn only_big_integers_allocate_in_any_family() {
     assert!(tally.without > tally.with, "{tally:?}");
     // Some families exist to need integers.
     assert!(tally.with > 100, "{tally:?}");
+}
+
+/// A frustum and a culler of each shadow's matrix, each frame, without a byte: perspective, reversed to infinity, parallel.
+#[test]
+fn frusta_from_matrices_and_cullers_allocate_nothing() {
+    let projections = [
+        Projection::Perspective {
+            fovy: 1.0,
+            aspect: 1.5,
+        },
+        Projection::Orthographic {
+            height: 30.0,
+            aspect: 1.0,
+        },
+    ];
+    let mut random = Random::new(&[14]);
+    let mut point = |reach: f64| Vec3::from([(); 3].map(|()| random.between(-reach, reach)));
+    for i in 0..500 {
+        let (eye, ahead) = (point(100.0), point(1.0));
+        let (clip, far) = match i % 4 {
+            0 => (ClipSpace::ZERO_TO_ONE.reversed(), f64::INFINITY),
+            _ => (ClipSpace::ZERO_TO_ONE, 80.0),
+        };
+        let projection = projections[usize::from(i % 4 > 1)];
+        let camera = Camera::new(eye, eye + ahead, [0.0, 1.0, 0.0], projection, 0.1, far);
+        let matrix = camera.view_projection(clip).unwrap().to_f32();
+        let boxes: Vec<Aabb<f32>> = (0..300)
+            .map(|_| Aabb::from_center(Vec3::<f32>::from_f64(point(120.0)), [1.0; 3]))
+            .collect();
+        let mut visible = Vec::with_capacity(boxes.len());
+        let info = allocation_counter::measure(|| {
+            let found = matrix.frustum(clip).unwrap();
+            Culler::new(&found.frustum)
+                .over(&boxes)
+                .visible(&mut visible)
+                .unwrap();
+        });
+        assert_eq!(info.count_total, 0, "{camera:?}");
+    }
 }
 
 /// Queries over many volumes, from every kind of source, write to buffers that were used before.

@@ -1,7 +1,7 @@
 //! Many segments or volumes a call, as ratios: to one a call, to reading or copying their bytes,
 //! and with threads to without.
 //!
-//! `cargo bench --features parallel --bench batch [-- ROUNDS] [segments|boxes|exact|threads]`. All
+//! `cargo bench --features parallel --bench batch [-- ROUNDS] [segments|boxes|exact|shadows|threads]`. All
 //! take turns, a ratio is taken within each round, and medians over the rounds are printed.
 //! First, every answer is compared with that of one a call.
 //!
@@ -10,6 +10,7 @@
 
 mod data;
 mod separating;
+mod shadows;
 
 use data::{BoxColumns, SegmentColumns};
 use frusta::clip::{SegmentClipper, SegmentIntervals, VwProjection};
@@ -306,7 +307,7 @@ fn main() {
     let args: Vec<String> = std::env::args().skip(1).collect();
     let rounds = args.iter().find_map(|arg| arg.parse().ok());
     let rounds = rounds.unwrap_or(10_usize).max(1);
-    let parts = ["segments", "boxes", "exact", "threads"];
+    let parts = ["segments", "boxes", "exact", "shadows", "threads"];
     let chosen = args.iter().find(|arg| parts.contains(&arg.as_str()));
     let wanted = |part: &str| chosen.is_none_or(|chosen| chosen == part);
     if wanted("segments") {
@@ -318,6 +319,9 @@ fn main() {
     }
     if wanted("exact") {
         exact(rounds);
+    }
+    if wanted("shadows") {
+        shadows::print(rounds);
     }
     if wanted("threads") {
         threads(rounds);

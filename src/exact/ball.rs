@@ -6,8 +6,8 @@
 //! or it proves nothing and somebody computes with integers. So results are the exact ones, always.
 //!
 //! # The bounds
-//! With u = 2^-53: a sum adds 4 u^2 of the result, a product 8 u^2, a quotient 16 u^2, where 3, 7 and 15
-//! (and u^3) are needed; a sum or product of two single values is exact. Underflow adds at most
+//! With u = 2^-53: a sum adds what its roundings lose, which is known; a product 8 u^2 of the result, a quotient 16 u^2,
+//! where 7 and 15 (and u^3) are needed; a product of two single values is exact. Underflow adds at most
 //! [`UNDERFLOW`] to a product: partial products lose some 2^-1074 each. A radius is a sum of positive
 //! terms of a few roundings, and [`ROUNDED_UP`] covers those. Overflow makes the radius infinite or NaN,
 //! and comparisons are written so that these fail.
@@ -15,7 +15,7 @@
 //! Zero times anything is zero, without an error: matrices of axis-aligned cameras are full of zeros.
 
 use super::double_double::Dd;
-use super::float::exp2;
+use super::float::{exp2, exponent_above, fast_two_sum, two_sum};
 use std::cmp::Ordering;
 
 /// u^2.
@@ -60,6 +60,11 @@ impl Ball {
         self.middle.hi == 0.0 && self.radius == 0.0
     }
 
+    /// Whether both are known by the same numbers, of opposite signs.
+    pub(crate) fn is_opposite(&self, other: Self) -> bool {
+        self.middle == other.middle.neg() && self.radius == other.radius
+    }
+
     #[inline(always)]
     fn magnitude(&self) -> f64 {
         self.middle.hi.abs()
@@ -83,7 +88,7 @@ impl Ball {
         // Rounding is monotonic: what lies between two numbers that round to `hi` does so, too. Sums are
         // taken outwards.
         let (low, high) = ((lo - self.radius).next_down(), (lo + self.radius).next_up());
-        let is_certain = hi + low == hi && hi + high == hi;
+        let is_certain = hi + low == hi && hi + high == hi || self.radius == 0.0;
         let in_range = hi.abs() < RANGE && hi.abs() > 1.0 / RANGE;
         (is_certain && in_range).then_some(hi)
     }
@@ -94,8 +99,9 @@ impl Ball {
         if hi == 0.0 {
             return None;
         }
-        let (significand, exponent) = libm::frexp(hi);
-        if significand.abs() != 0.5 {
+        // `hi` is normal, in [`RANGE`].
+        let exponent = exponent_above(hi);
+        if hi.to_bits() << 12 != 0 {
             return Some(exponent);
         }
         // A power of two: the number may be below it.
@@ -122,19 +128,15 @@ impl Ball {
         }
         let middle = self.middle.div(other.middle);
         let (q, d) = (middle.hi.abs(), other.magnitude());
-        // Written so that NaN fails.
-        if !(d > 4.0 * other.radius) {
-            return Self {
-                middle,
-                radius: f64::INFINITY,
-            };
-        }
         // The divisor is at least d / 2.
         let given = (self.radius + q * other.radius + UNDERFLOW) / (0.5 * d);
-        Self {
-            middle,
-            radius: (given + 16.0 * U2 * q) * ROUNDED_UP + UNDERFLOW,
-        }
+        // Written so that NaN fails.
+        let radius = if d > 4.0 * other.radius {
+            (given + 16.0 * U2 * q) * ROUNDED_UP + UNDERFLOW
+        } else {
+            f64::INFINITY
+        };
+        Self { middle, radius }
     }
 }
 
@@ -153,15 +155,16 @@ impl std::ops::Add for Ball {
     type Output = Self;
     #[inline(always)]
     fn add(self, other: Self) -> Self {
-        let middle = self.middle.add(other.middle);
-        let is_exact = self.middle.lo == 0.0 && other.middle.lo == 0.0;
-        let own = if is_exact {
-            0.0
-        } else {
-            4.0 * U2 * middle.hi.abs()
-        };
+        // As `Dd::add`, and what its two roundings lose: nothing, for short numbers.
+        let (s, e) = two_sum(self.middle.hi, other.middle.hi);
+        let (t, f) = two_sum(self.middle.lo, other.middle.lo);
+        let (e, lost) = two_sum(e, t);
+        let (s, e) = fast_two_sum(s, e);
+        let (e, lost_later) = two_sum(e, f);
+        let (hi, lo) = fast_two_sum(s, e);
+        let own = lost.abs() + lost_later.abs();
         Self {
-            middle,
+            middle: Dd { hi, lo },
             radius: (self.radius + other.radius + own) * ROUNDED_UP,
         }
     }
@@ -347,8 +350,11 @@ mod tests {
     #[test]
     fn ties() {
         let tie = Ball::from(1.0) + Ball::from(exp2(-53));
-        // Which neighbor is even decides, but what is near the tie does not.
-        assert_eq!(tie.rounded(), None);
+        // It is known to be one: to even.
+        assert_eq!(tie.rounded(), Some(1.0));
+        let third = Ball::from(1.0).over(3.0.into());
+        let near = third * Ball::from(3.0) + Ball::from(exp2(-53));
+        assert_eq!(near.rounded(), None);
         let more = tie + Ball::from(exp2(-100));
         assert_eq!(more.rounded(), Some(1.0 + exp2(-52)));
         let less = tie - Ball::from(exp2(-100));

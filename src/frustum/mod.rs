@@ -87,6 +87,7 @@ use eval::filter::Filter;
 use eval::plain::PlainPair;
 use independent::independent;
 use std::fmt;
+use std::sync::OnceLock;
 
 /// A view frustum: the closed set of the points whose frame coordinates (see
 /// [`Pose`]) lie in a [`Shape`], by exact arithmetic on the stored `f64` values.
@@ -97,7 +98,8 @@ pub struct Frustum {
     pose: Pose,
     shape: Shape,
     filter: Filter,
-    plain: PlainPair,
+    /// What plain arithmetic alone needs, when it is first asked for.
+    plain: OnceLock<PlainPair>,
 }
 
 impl Frustum {
@@ -131,12 +133,11 @@ impl Frustum {
         shape.validate()?;
         check_pose(&pose)?;
         let filter = Filter::new(&pose, &shape);
-        let plain = PlainPair::new(&pose, &shape);
         Ok(Self {
             pose,
             shape,
             filter,
-            plain,
+            plain: OnceLock::new(),
         })
     }
 
@@ -162,7 +163,8 @@ impl Frustum {
     /// Coefficients for plain arithmetic in `T`.
     #[inline(always)]
     pub(crate) fn plain<T: Real>(&self) -> &PlainFrustum<T> {
-        T::pick(&self.plain)
+        let make = || PlainPair::new(&self.pose, &self.shape);
+        T::pick(self.plain.get_or_init(make))
     }
 
     /// The same for the frustum scaled about the world's origin.

@@ -10,75 +10,87 @@
 //! with D = 1 and the slope for f - n in an infinite frustum, and neither where f = n.
 
 use crate::exact::ball::{Ball, dot};
-use crate::frustum::{Face, Shape};
+use crate::frustum::Shape;
 use crate::math::{Pose, Vec3};
-
-/// What the faces' coefficients have in common.
-pub(super) struct FaceCoefficients<'a> {
-    shape: &'a Shape,
-    axes: [[Ball; 3]; 3],
-    /// The axes' inner products with the origin.
-    at_origin: [Ball; 3],
-}
 
 fn balls(v: Vec3<f64>) -> [Ball; 3] {
     v.to_array().map(Ball::from)
 }
 
-impl<'a> FaceCoefficients<'a> {
-    pub(super) fn new(pose: &Pose, shape: &'a Shape) -> Self {
-        let axes = pose.axes.map(balls);
-        let origin = balls(pose.origin);
-        Self {
-            shape,
-            axes,
-            at_origin: axes.map(|axis| dot(&axis, &origin)),
-        }
-    }
+/// The normals and offsets of all faces, in the order of [`Face::ALL`](crate::Face::ALL); for a missing far face
+/// the near one's, negated.
+pub(super) fn all(pose: &Pose, shape: &Shape) -> [[Ball; 4]; 6] {
+    let axes = pose.axes.map(balls);
+    let origin = balls(pose.origin);
+    let at_origin = axes.map(|axis| dot(&axis, &origin));
+    // `a_k . (p - o) - at`.
+    let plane = |k: usize, at: f64| {
+        let [x, y, z] = axes[k];
+        [x, y, z, -(at_origin[k] + Ball::from(at))]
+    };
+    let near = shape.near();
+    let far_z = shape.far().map_or(near.z, |far| far.z);
+    let is_reversed = shape.direction().sign() < 0.0;
+    let depth = plane(2, near.z);
+    let mut far = depth;
+    far[3] = plane(2, far_z)[3];
+    let [left, right] = sides(shape, 0, &axes[0], at_origin[0], &depth);
+    let [bottom, top] = sides(shape, 2, &axes[1], at_origin[1], &depth);
+    let [near, far] = [signed(depth, is_reversed), signed(far, !is_reversed)];
+    [near, far, left, right, bottom, top]
+}
 
-    /// A face's normal and offset.
-    pub(super) fn of(&self, face: Face) -> [Ball; 4] {
-        let near = self.shape.near();
-        let is_reversed = self.shape.direction().sign() < 0.0;
-        let (axis, side) = match face {
-            Face::Near => return signed(self.plane(2, near.z), is_reversed),
-            Face::Far => {
-                let z = self.shape.far().map_or(near.z, |far| far.z);
-                return signed(self.plane(2, z), !is_reversed);
-            }
-            Face::Left => (0, 0),
-            Face::Right => (0, 1),
-            Face::Bottom => (1, 2),
-            Face::Top => (1, 3),
-        };
-        let n = near.rect.to_array()[side];
-        let across = self.plane(axis, n);
-        let (factor, growth) = match self.shape {
-            Shape::Finite { far, .. } => (
+/// Two opposite sides, `first` and the next one in the order of a rectangle's; what they share is computed once.
+fn sides(
+    shape: &Shape,
+    first: usize,
+    axis: &[Ball; 3],
+    at_origin: Ball,
+    depth: &[Ball; 4],
+) -> [[Ball; 4]; 2] {
+    let is_reversed = shape.direction().sign() < 0.0;
+    let at_near = shape.near().rect.to_array();
+    let (factor, growths) = match shape {
+        Shape::Finite { near, far } => {
+            let at_far = far.rect.to_array();
+            let growth = |side: usize| Ball::difference(at_far[side], at_near[side]);
+            (
                 Ball::difference(far.z, near.z),
-                Ball::difference(far.rect.to_array()[side], n),
-            ),
-            Shape::Infinite { slopes, .. } => {
-                let slope = slopes.to_array()[side];
-                let slope = if is_reversed { -slope } else { slope };
-                (Ball::from(1.0), Ball::from(slope))
-            }
-        };
-        let is_upper = side % 2 == 1;
-        if growth.is_zero() {
-            return signed(across, is_upper);
+                [growth(first), growth(first + 1)],
+            )
         }
-        let depth = self.plane(2, near.z);
-        let low = std::array::from_fn(|i| factor * across[i] - growth * depth[i]);
-        let is_finite = matches!(self.shape, Shape::Finite { .. });
-        signed(low, is_upper != (is_finite && is_reversed))
-    }
-
-    /// `a_k . (p - o) - at`.
-    fn plane(&self, k: usize, at: f64) -> [Ball; 4] {
-        let [x, y, z] = self.axes[k];
-        [x, y, z, -(self.at_origin[k] + Ball::from(at))]
-    }
+        Shape::Infinite { slopes, .. } => {
+            let slopes = slopes.to_array();
+            let slope = |side: usize| {
+                let slope = slopes[side];
+                Ball::from(if is_reversed { -slope } else { slope })
+            };
+            (Ball::from(1.0), [slope(first), slope(first + 1)])
+        }
+    };
+    let across = axis.map(|n| factor * n);
+    let is_flipped = is_reversed && matches!(shape, Shape::Finite { .. });
+    let shift = |growth: Ball| depth.map(|n| growth * n);
+    let low_shift = shift(growths[0]);
+    [0, 1].map(|k| {
+        let is_upper = k == 1;
+        let offset = -(at_origin + Ball::from(at_near[first + k]));
+        if growths[k].is_zero() {
+            let [x, y, z] = *axis;
+            return signed([x, y, z, offset], is_upper);
+        }
+        let shift = if !is_upper {
+            low_shift
+        } else if growths[1].is_opposite(growths[0]) {
+            low_shift.map(|n| -n)
+        } else {
+            shift(growths[1])
+        };
+        let [x, y, z] = across;
+        let all = [x, y, z, factor * offset];
+        let low = std::array::from_fn(|i| all[i] - shift[i]);
+        signed(low, is_upper != is_flipped)
+    })
 }
 
 fn signed(coefficients: [Ball; 4], is_negative: bool) -> [Ball; 4] {

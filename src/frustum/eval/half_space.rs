@@ -32,7 +32,7 @@ use crate::exact::dyadic::Dyadic;
 use crate::exact::expansion::{Expansion, in_safe_range};
 use crate::exact::float::{Lanes, exp2};
 use crate::frustum::eval::boundary::boundary_in;
-use crate::frustum::eval::face_coefficients::FaceCoefficients;
+use crate::frustum::eval::face_coefficients;
 use crate::frustum::{Face, Frustum, Shape};
 use crate::math::{Pose, Real, Vec3};
 use std::cmp::Ordering;
@@ -69,7 +69,8 @@ pub(crate) struct HalfSpace {
     constant: f64,
     /// What the exact coefficients are made of, when they are first needed.
     source: Option<Source>,
-    exact: OnceLock<Exact>,
+    /// Boxed: half spaces are moved more often than these are needed.
+    exact: OnceLock<Box<Exact>>,
 }
 
 /// A face of a frustum.
@@ -109,16 +110,16 @@ impl Deref for HalfSpaces {
 impl HalfSpaces {
     pub(crate) fn new(frustum: &Frustum) -> Self {
         let faces = frustum.faces();
-        let prepared = FaceCoefficients::new(frustum.pose(), frustum.shape());
+        let coefficients = face_coefficients::all(frustum.pose(), frustum.shape());
         let of = |i: usize| {
             let (pose, shape) = (*frustum.pose(), *frustum.shape());
             let face = faces[i.min(faces.len() - 1)];
             let source = Source { pose, shape, face };
-            HalfSpace::proved(&prepared.of(face), source)
-                .unwrap_or_else(|| HalfSpace::by_integers(source))
+            HalfSpace::of_face(&coefficients[face as usize], source)
         };
         Self {
-            all: std::array::from_fn(of),
+            // Written out: `from_fn` moves each several times.
+            all: [of(0), of(1), of(2), of(3), of(4), of(5)],
             count: faces.len(),
         }
     }
@@ -181,40 +182,16 @@ impl Exact {
     }
 }
 
-impl HalfSpace {
-    /// From a normal and an offset; `None` for the zero vector.
-    pub(crate) fn new(coefficients: [Dyadic; 4]) -> Option<Self> {
-        let exact = scaled(coefficients)?;
-        let high = exact.each_ref().map(nearest);
-        let square = (0..3).fold(Dyadic::from(0.0), |sum, j| &sum + &(&exact[j] * &exact[j]));
-        Some(Self {
-            up: [0, 1, 2].map(|j| exact[j].sign() == Ordering::Greater),
-            high,
-            length: nearest(&square).sqrt(),
-            constant: constant_of(high[3]),
-            source: None,
-            exact: Exact::new(exact, &high).into(),
-        })
-    }
+/// A half space's rounded numbers.
+struct Numbers {
+    up: [bool; 3],
+    high: [f64; 4],
+    length: f64,
+}
 
-    /// A face's, from its exact coefficients.
-    #[cold]
-    fn by_integers(source: Source) -> Self {
-        // The axes of a frustum are independent: no normal is zero.
-        let everything = || [0.0, 0.0, 1.0, f64::INFINITY];
-        Self::new(source.coefficients()).unwrap_or_else(|| Self {
-            up: [false, false, true],
-            high: everything(),
-            length: 1.0,
-            constant: f64::INFINITY,
-            source: Some(source),
-            exact: OnceLock::new(),
-        })
-    }
-
-    /// A face's, with the same numbers as from its exact coefficients, if the coefficients to 106 bits
-    /// prove them; the exact ones are then formed when they are needed.
-    fn proved(coefficients: &[Ball; 4], source: Source) -> Option<Self> {
+impl Numbers {
+    /// The numbers that exact coefficients would give, if those to 106 bits prove them.
+    fn proved(coefficients: &[Ball; 4]) -> Option<Self> {
         let mut top = i32::MIN;
         let mut high = [0.0; 4];
         let mut up = [false; 3];
@@ -236,10 +213,55 @@ impl HalfSpace {
             up,
             high,
             length: (square * scale * scale).sqrt(),
+        })
+    }
+}
+
+impl HalfSpace {
+    /// From a normal and an offset; `None` for the zero vector.
+    pub(crate) fn new(coefficients: [Dyadic; 4]) -> Option<Self> {
+        let exact = scaled(coefficients)?;
+        let high = exact.each_ref().map(nearest);
+        let square = (0..3).fold(Dyadic::from(0.0), |sum, j| &sum + &(&exact[j] * &exact[j]));
+        Some(Self {
+            up: [0, 1, 2].map(|j| exact[j].sign() == Ordering::Greater),
+            high,
+            length: nearest(&square).sqrt(),
             constant: constant_of(high[3]),
+            source: None,
+            exact: Box::new(Exact::new(exact, &high)).into(),
+        })
+    }
+
+    /// A face's, from its exact coefficients.
+    #[cold]
+    fn by_integers(source: Source) -> Self {
+        // The axes of a frustum are independent: no normal is zero.
+        let everything = || [0.0, 0.0, 1.0, f64::INFINITY];
+        Self::new(source.coefficients()).unwrap_or_else(|| Self {
+            up: [false, false, true],
+            high: everything(),
+            length: 1.0,
+            constant: f64::INFINITY,
             source: Some(source),
             exact: OnceLock::new(),
         })
+    }
+
+    /// A face's; its exact coefficients are formed when they are needed, if those to 106 bits prove the others.
+    #[inline(always)]
+    fn of_face(coefficients: &[Ball; 4], source: Source) -> Self {
+        match Numbers::proved(coefficients) {
+            Some(Numbers { up, high, length }) => Self {
+                up,
+                high,
+                length,
+                constant: constant_of(high[3]),
+                source: Some(source),
+                exact: OnceLock::new(),
+            },
+            None => Self::by_integers(source),
+        }
     }
 
     fn exact(&self) -> &Exact {
@@ -248,7 +270,7 @@ impl HalfSpace {
             let exact = coefficients.and_then(scaled);
             // A half space without a source has had its coefficients from the start.
             let zero = || std::array::from_fn(|_| Dyadic::from(0.0));
-            Exact::new(exact.unwrap_or_else(zero), &self.high)
+            Box::new(Exact::new(exact.unwrap_or_else(zero), &self.high))
         })
     }
 
@@ -389,7 +411,7 @@ mod tests {
 
     /// Whether each face's numbers are proved; asserts that they are then those of the integers.
     fn proved(frustum: &Frustum) -> bool {
-        let prepared = FaceCoefficients::new(frustum.pose(), frustum.shape());
+        let coefficients = face_coefficients::all(frustum.pose(), frustum.shape());
         let mut all = true;
         for (&face, used) in frustum.faces().iter().zip(HalfSpaces::new(frustum).iter()) {
             let (pose, shape) = (*frustum.pose(), *frustum.shape());
@@ -402,7 +424,7 @@ mod tests {
             assert_eq!(numbers(used), numbers(&slow), "{face} of {frustum:?}");
             let (used, slow) = (used.exact(), slow.exact());
             assert_eq!((used.low, used.expands), (slow.low, slow.expands));
-            all &= HalfSpace::proved(&prepared.of(face), source).is_some();
+            all &= Numbers::proved(&coefficients[face as usize]).is_some();
         }
         all
     }

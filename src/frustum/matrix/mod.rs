@@ -287,6 +287,7 @@ struct Eye {
     far: Option<f64>,
 }
 
+#[inline(always)]
 fn perspective(rows: &Rows, clip: ClipSpace, slack: f64) -> Result<Frustum, FrustumError> {
     let Eye { origin, near, far } = match proved::eye(rows, clip, slack) {
         Some(eye) => eye,
@@ -310,6 +311,7 @@ fn perspective(rows: &Rows, clip: ClipSpace, slack: f64) -> Result<Frustum, Frus
     Frustum::new(Pose::new(origin, [rows.x, rows.y, rows.w]), shape)
 }
 
+#[inline(always)]
 fn parallel(rows: &Rows, clip: ClipSpace) -> Result<Frustum, FrustumError> {
     let [x, y, z, w] = rows.constants;
     if w <= 0.0 {
