@@ -7,7 +7,7 @@
 //!
 //! | job | start with |
 //! |---|---|
-//! | cull boxes and spheres | [`Culler`]: one by one, many at once, for trees; [`cull`] |
+//! | cull or select boxes and spheres | [`Culler`]: one by one, many at once, for trees, exactly; [`cull`] |
 //! | clip edges | [`Frustum::clip_segment`], [`Frustum::clip_segments`] (slices, arrays, indexed edges); [`clip`] |
 //! | project points to pixels, pixels to rays | [`Projector`]; [`Frustum::view_projection`] for a matrix |
 //! | make frusta | [`Camera`], [`ViewProjection`] (matrices of every convention), [`Frustum::new`], [`SixPoints`]; [`frustum`] |

@@ -41,6 +41,7 @@ use wide::f64x2;
 /// | one | [`classify_exact`](Self::classify_exact) | exact: *crossing* only where frustum and volume meet |
 /// | many, a draw list | [`over`](Self::over)`(..).visible(..)` | the indices of those that are not outside |
 /// | many | [`over`](Self::over)`(..).classes(..)`, `.masks(..)` | the answer of `classify`, as a class or two bits for each |
+/// | many, exactly | `over(..).exact()` | the answer of `classify_exact` |
 /// | many, on threads | `over(..).parallel()` | the same (feature `parallel`) |
 /// | many segments | [`clip_intervals`](Self::clip_intervals) | class and parameters |
 ///
@@ -49,7 +50,7 @@ use wide::f64x2;
 /// several times as fast as a loop over `classify`.
 ///
 /// Answers are those for the [`Frustum`] it is made from, a closed set. To make a culler takes
-/// some ten microseconds.
+/// one or two microseconds, and allocates nothing.
 ///
 /// ```
 /// use frusta::{Aabb, Containment, Culler, EndRect, Frustum, Pose, Shape, Sphere};

@@ -147,7 +147,7 @@ mod tests {
         let y = x.cross(z);
         let unit = |v: Vec3<f64>| v * (1.0 / v.dot(v).sqrt());
         let mut axes = [x, y, z].map(unit);
-        if kind % 16 == 0 {
+        if kind.is_multiple_of(16) {
             axes = Pose::IDENTITY.axes;
         }
         if kind % 16 == 1 {

@@ -53,7 +53,8 @@ fn parse(value: &Value) -> Result<(Frustum, Option<Deviation>), String> {
     let object = Object { path: "", map };
     if map.contains_key("matrix") {
         let found = matrix(&object)?;
-        Ok((found.frustum, Some(found.deviation())))
+        let deviation = found.deviation();
+        Ok((found.frustum, Some(deviation)))
     } else if map.contains_key("eye") || map.contains_key("target") {
         Ok((camera(&object)?, None))
     } else if map.contains_key("axes") || map.contains_key("origin") {
