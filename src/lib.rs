@@ -116,8 +116,8 @@
 //! | `samples`, `oracle` | the modules above, for tests of clippers and cullers |
 //!
 //! # Targets
-//! Answers are the same to the bit everywhere; speed depends on the vector registers that a target is
-//! sure to have, or that are found at run time.
+//! Answers are the same to the bit everywhere (`scripts/targets` runs the same work on all of these but the last
+//! two rows); speed depends on the vector registers that a target is sure to have, or that are found at run time.
 //!
 //! | target | slices and queries use |
 //! |---|---|

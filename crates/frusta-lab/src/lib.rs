@@ -12,11 +12,13 @@
 //! turns      how all run times are taken; work: how much of a measurement is done
 //! case_line  a frustum and a segment as one line of text, to the bit
 //! check      all guarantees of one segment's answers at once
+//! digest     the bits of a fixed set of answers, as recorded; the program frusta-digest prints them
 //! mixes      frusta and everyday segments of the benchmarks
 //! ```
 
 mod case_line;
 pub mod check;
+pub mod digest;
 mod everyday;
 mod everyday_table;
 pub mod figures;
