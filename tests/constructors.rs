@@ -431,10 +431,14 @@ fn a_box_around_a_center_is_the_smallest() {
         assert!(exact(min.next_up().into()) > &c - &h && exact(max.next_down().into()) < &c + &h);
     }
     assert!(rounded > 1_000, "{rounded}");
-    // Beyond the largest value nothing is a box, and nothing is hidden.
+    // Beyond the largest value a side is infinite, so that nothing is lost.
+    let infinity = f64::INFINITY;
     let too_large = Aabb::from_center([f64::MAX; 3], [f64::MAX; 3]);
-    assert!(
-        too_large.check().is_err() && Aabb::from_center([f32::NAN; 3], [1.0; 3]).check().is_err()
-    );
+    assert_eq!(too_large, Aabb::new([0.0; 3], [infinity; 3]));
+    assert!(too_large.check().is_ok());
+    let all = Aabb::from_center([1.0; 3], [infinity; 3]);
+    assert_eq!(all, Aabb::UNBOUNDED);
+    assert!(Aabb::from_center([f32::NAN; 3], [1.0; 3]).check().is_err());
+    assert!(Aabb::from_center([infinity; 3], [1.0; 3]).check().is_err());
     assert!(Aabb::from_center([0.0; 3], [-1.0; 3]).check().is_err());
 }

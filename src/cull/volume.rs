@@ -293,7 +293,8 @@ impl<T: Real> Aabb<T> {
     /// The smallest box with coordinates of this type that contains the points no farther than
     /// `half_extents` from `center` in each coordinate, unchecked.
     ///
-    /// Each side is rounded outwards, so that nothing of an object between them is lost.
+    /// Each side is rounded outwards, to infinity beyond the largest number, so that nothing of an object between them
+    /// is lost.
     ///
     /// ```
     /// use frusta::Aabb;
