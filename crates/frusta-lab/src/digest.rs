@@ -38,9 +38,12 @@ impl Record {
     }
 }
 
+/// A name, how its digests are found, and what was recorded: inputs, exact, plain.
+type Entry = (&'static str, fn() -> Digests, [u64; 3]);
+
 /// All records, computed as they are asked for.
 pub fn records() -> impl Iterator<Item = Record> {
-    let all: [(&'static str, fn() -> Digests, [u64; 3]); 5] = [
+    let all: [Entry; 5] = [
         (
             "the 78",
             samples,
