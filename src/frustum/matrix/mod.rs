@@ -144,7 +144,7 @@ impl ClipSpace {
 /// let found = matrix.frustum(ClipSpace::ZERO_TO_ONE.reversed())?;
 /// assert_eq!(found.frustum.shape().near().z, 1.0);
 /// assert!(found.frustum.shape().far().is_none());
-/// assert_eq!(found.deviation.sides, 0.0);
+/// assert_eq!(found.deviation().sides, 0.0);
 /// # Ok::<(), frusta::FrustumError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
