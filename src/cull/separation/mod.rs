@@ -57,6 +57,13 @@ struct Context<'a> {
     separation: &'a Separation,
 }
 
+impl<'a> Context<'a> {
+    fn aligned(&self) -> &'a Aligned {
+        let make = || Aligned::new(self.frustum, self.half_spaces);
+        self.separation.aligned.get_or_init(make)
+    }
+}
+
 /// A volume that can be tested.
 trait Separable {
     /// A point of the volume.
@@ -73,11 +80,7 @@ impl Separable for Aabb<f64> {
     }
 
     fn is_separate(&self, context: &Context<'_>, counts: &mut VolumeCounts) -> bool {
-        let aligned = context
-            .separation
-            .aligned
-            .get_or_init(|| Aligned::new(context.frustum, context.half_spaces));
-        aligned.is_separate(self, counts)
+        context.aligned().is_separate(self, counts)
     }
 }
 
@@ -177,7 +180,7 @@ impl Culler {
     }
 
     fn is_separate_unbounded(&self, v: &Unbounded, counts: &mut VolumeCounts) -> bool {
-        let is_separate = self.aligned().is_separate_unbounded(v, counts);
+        let is_separate = self.context().aligned().is_separate_unbounded(v, counts);
         counts.exact_tests += 1;
         counts.false_accepts += u64::from(is_separate);
         is_separate
@@ -191,18 +194,17 @@ impl Culler {
         with_extent!(volume, v => self.is_separate(v, counts))
     }
 
-    fn aligned(&self) -> &Aligned {
-        let make = || Aligned::new(self.frustum(), self.half_spaces());
-        self.separation().aligned.get_or_init(make)
+    fn context(&self) -> Context<'_> {
+        Context {
+            frustum: self.frustum(),
+            half_spaces: self.half_spaces(),
+            separation: self.separation(),
+        }
     }
 
     /// Precondition: no face plane rejects the volume.
     fn is_separate(&self, volume: &impl Separable, counts: &mut VolumeCounts) -> bool {
-        let context = Context {
-            frustum: self.frustum(),
-            half_spaces: self.half_spaces(),
-            separation: self.separation(),
-        };
+        let context = self.context();
         // Most volumes that meet the frustum have their middle in it.
         let is_separate = !self.planes().certainly_contain(volume.point())
             && volume.is_separate(&context, counts);
