@@ -303,7 +303,7 @@ mod tests {
     }
 
     proptest! {
-        #![proptest_config(ProptestConfig::with_cases(20_000))]
+        #![proptest_config(ProptestConfig::with_cases(if cfg!(miri) { 4 } else { 20_000 }))]
         #[test]
         fn balls_hold_what_they_should(values in prop::collection::vec(number(), 8),
                                        steps in prop::collection::vec((0_u8..3, 0_usize..8, 0_usize..8), 9)) {
