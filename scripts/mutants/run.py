@@ -45,7 +45,7 @@ TESTS = [
     ("slices", []),
 ]
 # Volumes and batches have their own.
-VOLUME_TESTS = [("volumes", []), ("frusta", ["cull::"]), ("regressions", [])]
+VOLUME_TESTS = [("volumes", []), ("frusta", ["cull::"]), ("bounds", []), ("regressions", [])]
 # Slices are compared with single calls first. So are the rules that all share.
 SLICE_TESTS = [("frusta", ["clip::many::"]), *TESTS]
 INTERVAL_TESTS = [("frusta", ["clip::many::intervals::", "cull::"]), ("volumes", [])]

@@ -123,7 +123,7 @@ impl fmt::Display for Containment {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum VolumeError {
-    /// A component is infinite or NaN.
+    /// A component is NaN, or infinite where only a box's sides may be: `min` downwards, `max` upwards.
     NonFinite {
         /// Which component.
         what: &'static str,
@@ -150,7 +150,10 @@ impl fmt::Display for VolumeError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match *self {
             Self::NonFinite { what, value } => {
-                write!(f, "{what} = {value}; a bounding volume must be finite")
+                write!(
+                    f,
+                    "{what} = {value}; a bounding volume must be finite, except a box outwards"
+                )
             }
             Self::Inverted { axis, min, max } => write!(
                 f,
@@ -398,8 +401,8 @@ impl<T: Real> Obb<T> {
     /// turned, moved, scaled and skewed. `columns` are the images of the axes, and the image of the origin.
     ///
     /// Each coordinate is within 6 u of the sum of the magnitudes of the products in it (in `f32`: rounded once
-    /// from `f64`). What is stored is then the box, exactly. The image of a box that is not finite is not finite, and
-    /// invalid.
+    /// from `f64`). What is stored is then the box, exactly. The image of a box that is not finite, or one beyond the range of
+    /// numbers, is not finite, and invalid: [`Obb::check`] finds it.
     ///
     /// ```
     /// use frusta::{Aabb, Obb};
